@@ -1,5 +1,6 @@
 # Test of the module order. A module includes only modules that it links, directly or through others (lib/modules.cmake). The
-# command includes only installed headers, and these include only each other. No two headers define types of one name,
+# command includes only installed headers, and these include only each other; apps/plant, which the command has of its own,
+# is like a module on top of batch, and shows the command its public headers. No two headers define types of one name,
 # because a linker would then keep one destructor for both.
 #   cmake -DROOT=<folder with lib/ and apps/> -P CheckLayers.cmake
 # Lists every violation and fails if there is one.
@@ -70,9 +71,28 @@ function(check_own_include module quoted)
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
+# Checks an include in apps/plant: of the modules that batch may include, and its own.
+function(check_plant_include header)
+  if(header MATCHES "${IN_FOLDER}")
+    set(other "${CMAKE_MATCH_1}")
+    if(NOT other STREQUAL "batch" AND NOT other IN_LIST ALLOWED_batch)
+      complain("apps/plant must not include module ${other} (\"${header}\")")
+    endif()
+  elseif(NOT header MATCHES "^plant/")
+    complain("includes \"${header}\"; inside apps/plant includes start with \"lyrefit/\" or \"plant/\"")
+  endif()
+  set(BROKEN ${BROKEN} PARENT_SCOPE)
+endfunction()
+
 # Checks an include in apps/ and in public headers: public headers, and base/try.h in apps for its macro.
 function(check_public_include header)
   set(who)
+  if(header MATCHES "^plant/(.+)$")
+    file(STRINGS "${ROOT}/apps/${header}" shown REGEX "^namespace LYREFIT_PUBLIC ")
+    if(NOT shown)
+      complain("the command must not include the closed header \"${header}\"")
+    endif()
+  endif()
   if(FILE MATCHES "^apps/" AND NOT header STREQUAL "lyrefit/base/try.h")
     set(who "the command")
   elseif(FILE MATCHES "^lib/lyrefit/(.+\\.h)$")
@@ -100,6 +120,10 @@ function(check_file module)
     set(header "${CMAKE_MATCH_2}")
     if(header MATCHES "^ceres/" AND NOT FILE MATCHES "/refine/solve\\.cc$")
       complain("only estimate/refine/solve.cc includes Ceres (<${header}>)")
+    endif()
+    if(module STREQUAL "plant" AND mark STREQUAL "\"")
+      check_plant_include("${header}")
+      continue()
     endif()
     if(module STREQUAL "apps")
       check_public_include("${header}")
@@ -148,7 +172,9 @@ foreach(FILE IN LISTS files)
   if(FILE MATCHES "[.]h$")
     check_types()
   endif()
-  if(FILE MATCHES "^apps/")
+  if(FILE MATCHES "^apps/plant/")
+    check_file(plant)
+  elseif(FILE MATCHES "^apps/")
     check_file(apps)
   elseif(FILE MATCHES "^lib/lyrefit/(estimate/[^/]+|[^/]+)/")
     set(module "${CMAKE_MATCH_1}")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Lines of every module of the library, and its closure: its own and those of all modules that it links.
+"""Lines of every module of the library and of apps/plant, and its closure: its own and those of all modules that it links.
 
     sizes.py [--root FOLDER]            prints them beside their ceilings and fails where one is exceeded
     sizes.py [--root FOLDER] --lower    lowers the ceilings in cmake/sizes.txt to today's sizes
@@ -15,6 +15,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 CORE = "core"
+APPS = {"plant": ["batch"]}  # folders of apps that are built as modules are, and what they link
 KEYWORDS = {"FOLDER", "LINK", "WITH", "ARITHMETIC", "TEXT"}
 
 
@@ -41,10 +42,15 @@ def lines_of(folder):
 
 
 def measure(root):
-    """Lines and closure of each module, and of the core."""
+    """Lines and closure of each module, of the apps that are like one, and of the core."""
     table = modules(root)
+    folders = {name: root / "lib" / "lyrefit" / folder for name, (folder, _) in table.items()}
+    for name, links in APPS.items():
+        if (root / "apps" / name).is_dir():
+            table[name] = ("", links)
+            folders[name] = root / "apps" / name
     closed, found = {}, {}
-    lines = {name: lines_of(root / "lib" / "lyrefit" / folder) for name, (folder, _) in table.items()}
+    lines = {name: lines_of(folder) for name, folder in folders.items()}
     for name, (_, links) in table.items():
         closed[name] = {name}.union(*(closed[link] for link in links))
         found[name] = (lines[name], sum(lines[one] for one in closed[name]))

@@ -9,6 +9,8 @@
 #include "batch_request.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
+#include "plant/plan_task.h"
+#include "plant/plant_page.h"
 #include "verbs.h"
 
 namespace lyrefit {
@@ -67,6 +69,8 @@ void DeclareBatch(VerbLine* verb, BatchRequest* request) {
       .Type("NAME")
       .OneOf(BatchTaskNames())
       .Group("Batch");
+  AddNamedFlags(verb, kBatchOptionTable, {"seed", "threads"}, &request->options);
+  AddTableFlags(verb, kPlantOptionTable, &request->comparisons);
   AddTableFlags(verb, kBatchOptionTable, &request->options);
   AddSharedTaskFlags(verb, request);
   verb->AddReader(
@@ -80,7 +84,7 @@ void DeclareBatch(VerbLine* verb, BatchRequest* request) {
                   "compared with those of its own id, or in its folder ID/")
       .Reads()
       .Group("Against its own history");
-  verb->AddOption("--before", &request->options.before,
+  verb->AddOption("--before", &request->comparisons.before,
                   "earlier results of the same plant and task field-test, a folder or its "
                   "results.jsonl: each string is compared with its own earlier figures")
       .Type("RESULTS")
@@ -217,6 +221,7 @@ Expected<void> Prepare(const BatchRequest& request, const std::string& id, PlanC
 
 BatchOptions Settled(const VerbLine& verb, const BatchRequest& request, PlanCount* count) {
   BatchOptions options = request.options;
+  options.additions = PlantAdditions(request.comparisons);
   if (request.resume) options.start = BatchStart::kResume;
   if (verb.Forced()) options.start = BatchStart::kReplace;
   options.prepare = [request, count](const std::string& id, IvCurve* curve) {

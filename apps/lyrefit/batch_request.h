@@ -7,6 +7,8 @@
 
 #include "flags.h"
 #include "lyrefit/batch.h"
+#include "plant/additions.h"
+#include "plant/string_plan.h"
 
 namespace lyrefit {
 
@@ -16,6 +18,7 @@ struct BatchRequest {
   std::string task = "fit";
   bool resume = false;
   BatchOptions options;
+  PlantOptions comparisons;
   BatchReadOptions reading;
   ConditionOptions conditions;
   std::vector<std::string> reference_inputs;

@@ -1,6 +1,8 @@
 #include "flags.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch.h"
+#include "plant/additions.h"
+#include "plant/plant_page.h"
 #include "verbs.h"
 
 namespace lyrefit {
@@ -35,6 +37,7 @@ void DeclareMerge(VerbLine* verb, MergeRequest* request) {
 Expected<int> RunMerge(VerbLine& verb, MergeRequest& request) {
   if (request.options.folder.empty()) return Fail("--out is required: a folder for the results");
   request.options.replace = verb.Forced();
+  request.options.additions = PlantAdditions();
   TRY(verb.CheckFiles());
   TRY(const BatchSummary summary, MergeShards(request.folders, request.options));
   if (!request.html_file.empty()) {

@@ -3,10 +3,10 @@
 namespace lyrefit {
 
 std::vector<const Verb*> ProgramVerbs() {
-  return {&kFitVerb,         &kSimulateVerb, &kCertifyVerb,   &kCompareVerb,    &kBudgetVerb,
-          &kSensitivityVerb, &kInspectVerb,  &kDataSheetVerb, &kAuditVerb,      &kDiagnoseVerb,
-          &kCellVerb,        &kTrendVerb,    &kTranslateVerb, &kPackVerb,       &kBatchVerb,
-          &kMergeVerb,       &kCiteVerb,     &kHelpVerb,      &kCompletionVerb, &kManVerb};
+  return {&kFitVerb,       &kSimulateVerb,   &kCertifyVerb,  &kCompareVerb, &kInspectVerb,
+          &kDataSheetVerb, &kAuditVerb,      &kDiagnoseVerb, &kCellVerb,    &kTrendVerb,
+          &kTranslateVerb, &kPackVerb,       &kBatchVerb,    &kMergeVerb,   &kCiteVerb,
+          &kHelpVerb,      &kCompletionVerb, &kManVerb};
 }
 
 const char kLeftOut[] = "";

@@ -21,8 +21,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 SOURCES = HERE / "source" if (HERE / "source").is_dir() else HERE.parents[1]
 OUT = SOURCES / "build-python"
 # What the build reads of the project.
-PARTS = ("CMakeLists.txt", "LICENSE", "README.md", "lib", "apps/lyrefit", "apps/python", "apps/slurm", "cmake",
-         "data/rtc_france", ".github/CHANGELOG.md")
+PARTS = ("CMakeLists.txt", "LICENSE", "README.md", "lib", "apps/lyrefit", "apps/plant", "apps/python", "apps/slurm",
+         "cmake", "data/rtc_france", ".github/CHANGELOG.md")
 
 
 def version():

@@ -18,7 +18,7 @@ WORDS = {
     "SMALL": "--folds 0 --no-individual-fits --iterations 20 --population 15",
     "QUICK": "--runs 2 --population 10 --iterations 20",
     "SHEET": "datasheet --isc 4.75 --voc 21.6 --imp 4.26 --vmp 17.6 --alpha 0.002 --beta -0.076 --cells 36",
-    "VERBS": "fit|simulate|certify|compare|budget|sensitivity|inspect|datasheet|audit|diagnose|cell|trend|translate|pack|batch|merge|cite",
+    "VERBS": "fit|simulate|certify|compare|inspect|datasheet|audit|diagnose|cell|trend|translate|pack|batch|merge|cite",
     "ALL_PAGMO": "|".join(f"pagmo:{name}" for name in (
         "de sade de1220 cmaes xnes pso pso_gen gwo bee_colony gaco sga ihs sea simulated_annealing").split()),
     "EFFECTS": "second_diode|nonohmic_shunt|breakdown|collection|photoshunt|back_contact|rs_current|distributed_rs|aged_contacts|"

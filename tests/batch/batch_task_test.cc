@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "batch/synthetic_curves.h"
-#include "lyrefit/batch/row_cause.h"
 #include "strings.h"
 
 namespace lyrefit {
@@ -25,37 +24,6 @@ TEST(RatedPowerBeside, IsTheNumberThatStandsBesideACurve) {
   EXPECT_FALSE(RatedPowerBeside(curve));
   curve.beside["rated_power_W"] = "250 W";
   EXPECT_FALSE(RatedPowerBeside(curve));
-}
-
-TEST(RowCause, IsTheCauseOfTheVerdictElseWhatIsOutOfRange) {
-  Diagnosis diagnosis;
-  EXPECT_EQ(RowCause(diagnosis).id, "");
-  DeviceFinding finding;
-  finding.id = "series_resistance";
-  finding.value.value = 0.28;
-  finding.healthy_limit = 0.14;
-  finding.power_loss = 0.12;
-  finding.sentence = "drops 28.1 % of Voc in its series resistance";
-  diagnosis.device_findings = {finding};
-  const Cause out_of_range = RowCause(diagnosis);
-  EXPECT_EQ(out_of_range.id, "series_resistance");
-  EXPECT_EQ(out_of_range.title, "series resistance above that of healthy devices");
-  EXPECT_EQ(out_of_range.group, "device");
-  EXPECT_EQ(out_of_range.sentence, "it drops 28.1 % of Voc in its series resistance");
-  EXPECT_EQ(out_of_range.power_effect.value, 0.12);
-
-  finding.id = "ideality";
-  finding.value.value = 0.7;
-  finding.healthy_limit = 1;
-  diagnosis.device_findings = {finding};
-  EXPECT_EQ(RowCause(diagnosis).id, "low_ideality");
-  EXPECT_EQ(RowCause(diagnosis).group, "conditions");
-
-  Cause cause;
-  cause.id = "shading";
-  diagnosis.verdict.causes = {cause};
-  EXPECT_EQ(RowCause(diagnosis).id, "shading");
-  EXPECT_EQ(RowCause(diagnosis).group, "device");
 }
 
 // Reads a truth file: line -> {how, fate}.

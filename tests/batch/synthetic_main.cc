@@ -5,9 +5,9 @@
 #include <string>
 
 #include "batch/synthetic_curves.h"
-#include "batch/synthetic_plant.h"
-#include "batch/synthetic_scale.h"
-#include "batch/synthetic_score.h"
+#include "plant/synthetic_plant.h"
+#include "plant/synthetic_scale.h"
+#include "plant/synthetic_score.h"
 
 namespace {
 

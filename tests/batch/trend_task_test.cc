@@ -6,9 +6,6 @@
 #include <sstream>
 
 #include "../error_of.h"
-#include "lyrefit/batch/plant_figures.h"
-#include "lyrefit/batch/plant_page.h"
-#include "lyrefit/batch/plant_summary.h"
 #include "repeats.h"
 #include "strings.h"
 
@@ -130,49 +127,6 @@ TEST_F(TrendTaskTest, ThreadsShardsAndResumeGiveTheSameBytes) {
   const auto merged = MergeShards({folder_.Path("shards")}, {folder_.Path("merged")});
   ASSERT_TRUE(merged) << MessageOf(merged);
   EXPECT_EQ(ResultsIn(folder_.Path("merged")), whole);
-}
-
-TEST_F(TrendTaskTest, PageOfThePlantShowsTheLossesByPart) {
-  ASSERT_TRUE(Run(Into(folder_.Path("out"))));
-  const auto written = WritePlantPage(folder_.Path("out"), folder_.Path("plant.html"), "Plant");
-  ASSERT_TRUE(written) << MessageOf(written);
-  const std::string page = FileText(folder_.Path("plant.html"));
-  EXPECT_THAT(page, HasSubstr("1 of 4 strings show no cause. 2 need work: "));
-  EXPECT_THAT(page, HasSubstr("Energy lost since the reference days, by part"));
-  EXPECT_THAT(page, HasSubstr("power lost now (%)"));
-  EXPECT_THAT(page, HasSubstr("mostly by"));
-  EXPECT_THAT(page, HasSubstr("2025-01-01 "));
-}
-
-TEST(PlantLosses, AreMeansByPowerOfGroupsAndPlant) {
-  std::vector<ResultColumn> columns = {{"reference_power_W", "W", CellType::kNumber, ""}};
-  for (const PlantLossPart& part : kPlantLossParts) {
-    columns.push_back({part.column, "%", CellType::kNumber, ""});
-  }
-  columns.push_back({"loss_now_total_percent", "%", CellType::kNumber, ""});
-  PlantLossCounter counter(columns);
-  counter.Add("a/1", {{100.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 2.0}});
-  counter.Add("a/2", {{300.0, 5.0, 0.0, 0.0, 0.0, 0.0, 5.0, 4.0}});
-  counter.Add("b/1", {{100.0, 0.0, 3.0, 0.0, 0.0, 0.0, 3.0, {}}});
-  counter.Add("b/2", {{100.0, {}, 4.0, 0.0, {}, 0.0, 5.0, 0.0}});   // two parts are not told
-  counter.Add("b/3", {{100.0, 9.0, 4.0, 0.0, 0.0, 0.0, {}, 0.0}});  // nor is the total
-  counter.Add("c/1", {{100.0, 1.0, 0.0, 0.0, {}, 0.0, 1.0, 2.0}});
-  const PlantLossSummary& summary = counter.summary();
-  EXPECT_EQ(summary.plant.rows, 5);
-  const PlantLosses& a = summary.groups.at("a");
-  EXPECT_DOUBLE_EQ(a.parts.front() / a.weights.front(), 4);
-  EXPECT_DOUBLE_EQ(a.parts.back() / a.weights.back(), 4);
-  EXPECT_DOUBLE_EQ(a.lost_W, 14);
-  const PlantLosses& b = summary.groups.at("b");
-  EXPECT_EQ(b.weights, (std::vector<double>{100, 200, 200, 100, 200, 200}));
-  EXPECT_DOUBLE_EQ(b.parts[1], 700);
-  EXPECT_DOUBLE_EQ(summary.plant.parts.back() / summary.plant.weights.back(), 2500.0 / 700);
-  const auto rows = LossesFigure(summary).readings.rows;
-  ASSERT_EQ(rows.size(), 4U);
-  EXPECT_EQ(rows[0],
-            (block::Table::Row{"all", "5", "2.83", "1.00", "0.00", "0.00", "0.00", "3.57", "16"}));
-  EXPECT_EQ(rows[3],
-            (block::Table::Row{"c", "1", "1.00", "0.00", "0.00", "not told", "0.00", "1.00", "2"}));
 }
 
 TEST(WholeFiles, AStreamIsRefused) {

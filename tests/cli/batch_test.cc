@@ -1,11 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "../batch/strings.h"
+#include "lyrefit/report/html_parts.h"
 #include "run_app.h"
 #include "start_app.h"
 
@@ -271,6 +275,65 @@ TEST_F(BatchCommand, RefusesWhatCannotBeMeant) {
                             "cannot read the folder"},
                            {" '" + folder_.Path("") + "'", "--out is required"}});
   EXPECT_FALSE(std::filesystem::exists(folder_.Path("never")));
+}
+
+// The rows of some combiners of the made plant.
+std::string RowsOfCombiners(const std::vector<std::string>& combiners) {
+  std::istringstream all(FileText(std::string(LYREFIT_DATA_DIR) + "/plant/strings.csv"));
+  std::string rows, line;
+  for (int i = 0; std::getline(all, line); ++i) {
+    const bool wanted =
+        i == 0 || std::any_of(combiners.begin(), combiners.end(), [&](const std::string& combiner) {
+          return line.rfind(combiner + "/", 0) == 0;
+        });
+    if (wanted) rows += line + "\n";
+  }
+  return rows;
+}
+
+// Each kind of fault of data/plant/truth.csv has one verdict: in the row, on the string's page, on
+// the plant's page and in the terminal. Healthy strings are never in need of work.
+TEST(BatchOfAPlant, HasOneVerdictAString) {
+  const std::string data = std::string(LYREFIT_DATA_DIR) + "/plant/";
+  const TempFolder folder;
+  const std::string input = folder.Write(
+      "few.csv", RowsOfCombiners({"elm/inv01/comb05", "elm/inv01/comb06", "elm/inv01/comb07",
+                                  "elm/inv01/comb09", "elm/inv02/comb05"}));
+  const AppResult run = RunApp("batch '" + input + "' --task field-test --module '" + data +
+                               "module.json' --plan '" + data + "plan.csv' --pages all --out '" +
+                               folder.Path("out") + "' --html '" + folder.Path("plant.html") + "'");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string plant = FileText(folder.Path("plant.html"));
+  const std::map<std::string, std::string> hidden = {
+      {"elm/inv01/comb05/str03", "measure again irr_step"},
+      {"elm/inv01/comb05/str19", "work uniform_soiling"},
+      {"elm/inv01/comb06/str02", "work graded_shunt"},
+      {"elm/inv01/comb07/str07", "work shading"},
+      {"elm/inv01/comb07/str10", "work bypassed_substring"},
+      {"elm/inv01/comb09/str05", "work missing_module"},
+      {"elm/inv01/comb09/str18", "inspect weak_cell"},
+      {"elm/inv02/comb05/str09", "work cable_resistance"}};
+  std::map<std::string, std::string> named;
+  std::istringstream lines(FileText(folder.Path("out/results.jsonl")));
+  for (std::string line; std::getline(lines, line);) {
+    const auto row = nlohmann::json::parse(line);
+    const std::string id = row["id"];
+    const std::string page = FileText(folder.Path("out/" + std::string(row["page"])));
+    EXPECT_EQ(page.find("DOUBTFUL"), std::string::npos) << id;
+    const std::string to_do = "To do: " + std::string(row["string_to_do"]);
+    EXPECT_TRUE(page.find(to_do) != std::string::npos) << id;
+    if (row["string_to_do"] == "nothing") continue;
+    named[id] = std::string(row["string_to_do"]) + " " + std::string(row["string_cause"]);
+    const std::string title = row["string_cause_title"], sentence = row["string_sentence"];
+    EXPECT_TRUE(page.find(title.substr(1) + " (") != std::string::npos) << id << " " << title;
+    const bool visit = row["string_to_do"] != "measure again";
+    EXPECT_EQ(plant.find(">" + id + "<") != std::string::npos, visit) << id;
+    if (!visit) continue;
+    EXPECT_THAT(run.out, HasSubstr(id)) << id;
+    EXPECT_TRUE(plant.find(HtmlEscaped(sentence.substr(1))) != std::string::npos) << sentence;
+    EXPECT_TRUE(plant.find(HtmlEscaped(row["string_action"])) != std::string::npos) << id;
+  }
+  EXPECT_EQ(named, hidden);
 }
 
 }  // namespace

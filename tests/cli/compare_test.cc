@@ -39,8 +39,6 @@ TEST(Compare, CommandsUnderTheTablesOfThePublicationRun) {
       command = std::regex_replace(command.substr(8), std::regex(" data/"), " " + root);
       command = std::regex_replace(command, std::regex("--runs [0-9]+"), "--runs 2");
       if (command.rfind("compare", 0) == 0) command += " --population 70 --iterations 3";
-      if (command.rfind("sensitivity", 0) == 0) command += " --population 10 --iterations 3";
-      if (command.rfind("budget", 0) == 0) command += " --budgets 10,30";
       const AppResult result = RunApp(command);
       EXPECT_EQ(result.exit_code, 0) << command << '\n' << result.err;
       ++run;

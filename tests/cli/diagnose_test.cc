@@ -140,26 +140,6 @@ TEST(DiagnoseVerb, WritesEveryFileItIsAskedFor) {
   EXPECT_THAT(FileText(folder.Path("d.svg")), HasSubstr("</svg>"));
 }
 
-TEST(DiagnoseVerb, PlansWhatToMeasureNext) {
-  SKIP_IF_SANITIZED();
-  const std::string laboratory = "diagnose '" + DataFolder("pwp201") +
-                                 "' --noise white --floor-current 0 --floor-power 0 --no-held-out "
-                                 "--effects shading,mismatch,transient ";
-  const AppResult result = RunApp(laboratory + "--plan");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("What would tell them apart\n"));
-  EXPECT_EQ(RunApp(laboratory).out.find("What would tell them apart"), std::string::npos);
-  const json plan = json::parse(RunApp(laboratory + "--plan --json -").out).at("plan");
-  ASSERT_GE(plan.at("causes").size(), 2U);
-  double before = 1;
-  for (const json& measurement : plan.at("measurements")) {
-    const double probability = measurement.at("probability");
-    EXPECT_LE(probability, before);
-    EXPECT_EQ(measurement.at("causes").size(), plan.at("causes").size());
-    before = probability;
-  }
-}
-
 // With several files, each gets its line of results or its error.
 TEST(DiagnoseVerb, GoesOnBehindAFileThatCannotBeRead) {
   const std::string files = "diagnose no_such_file.csv '" + DataFolder("rtc_france") + "' ";

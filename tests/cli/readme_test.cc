@@ -247,7 +247,7 @@ TEST(Readme, LinksOfEveryPageLeadSomewhere) {
   EXPECT_GE(links, 40);
 }
 
-// The blocks that cmake/results.sh and cmake/landscapes.sh replace.
+// The blocks that cmake/results.sh replaces, and one that stays.
 TEST(Readme, TablesThatCommandsWriteStandBetweenTheirMarks) {
   const struct {
     const char* page;
@@ -267,6 +267,15 @@ TEST(Readme, TablesThatCommandsWriteStandBetweenTheirMarks) {
     ASSERT_NE(end, std::string::npos) << page << ": " << block;
     EXPECT_GT(end, start + 500) << page << ": " << block;
   }
+}
+
+TEST(Readme, ShowsTheStudyOfSearchesThatIsRun) {
+  const std::string example = FileText((Project() / "apps/python/examples/budgets.py").string());
+  const std::string shown = example.substr(example.find("import lyrefit"));
+  EXPECT_GT(shown.size(), 500U);
+  EXPECT_NE(FileText((Project() / "data/landscapes/README.md").string())
+                .find("```python\n" + shown + "```"),
+            std::string::npos);
 }
 
 TEST(Readme, ShowsTheEffectOfOnesOwnThatIsCompiled) {

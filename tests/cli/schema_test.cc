@@ -79,7 +79,7 @@ std::vector<SchemaCase> SchemaCases() {
            "--quiet",
        "translation"},
       {"DataSheetForPvlib", module + "--pvlib FILE", "pvlib"},
-      {"Diagnosis", "diagnose " + shaded + "--json FILE --plan" + kCauses, "diagnosis"},
+      {"Diagnosis", "diagnose " + shaded + "--json FILE" + kCauses, "diagnosis"},
       {"DiagnosisOfSeveral", "diagnose " + rtc + kData + "pwp201 --json FILE" + kCauses,
        "diagnosis"},
       {"ExtendedModel", "diagnose " + shaded + "--extend FILE" + kCauses, "fit"},
@@ -104,13 +104,10 @@ std::vector<SchemaCase> SchemaCases() {
            "--models sd --runs 3 --population 10 --iterations 10 --json FILE "
            "--quiet",
        "comparison"},
-      {"Budget",
-       "budget " + shaded +
-           "--with shading:w=0.3333 --models sd --algorithms mlo,random --budgets 20 --runs 2 "
-           "--multistart 2 "
-           "--json FILE --quiet",
-       "comparison"},
-      {"Sensitivity", "sensitivity " + rtc + "--models sd --runs 2 --json FILE" + kSearch,
+      {"ComparisonWithEffects",
+       "compare " + shaded +
+           "--with shading:w=0.3333 --models sd --algorithms mlo,random --runs 2 --population 5 "
+           "--iterations 4 --json FILE --quiet",
        "comparison"},
       {"Audit", "audit " + kData + "paper/rows.csv --json FILE", "audit"},
       {"Inspection", "inspect " + kData + "formats/head_tracer.csv --json FILE --quiet",

@@ -68,8 +68,8 @@ TEST(Verbs, AreFoundByWhatIsAskedOfThem) {
   EXPECT_EQ(bare.exit_code, 0) << bare.err;
   EXPECT_EQ(bare.err, "");
   EXPECT_EQ(bare.out, RunApp("help").out);
-  for (const char* verb : {"fit", "simulate", "certify", "compare", "budget", "sensitivity",
-                           "datasheet", "audit", "diagnose", "cell", "pack"}) {
+  for (const char* verb : {"fit", "simulate", "certify", "compare", "datasheet", "audit",
+                           "diagnose", "cell", "pack"}) {
     EXPECT_THAT(bare.out, HasSubstr(std::string("\n  ") + verb + " ")) << verb;
     EXPECT_THAT(bare.out, HasSubstr(std::string(" lyrefit ") + verb + " ")) << verb;
   }
@@ -115,7 +115,7 @@ TEST(Verbs, WithoutATargetSayWhatTheyWriteInstead) {
 }
 
 TEST(Verbs, EmptyArgumentIsNamed) {
-  for (const char* verb : {"fit", "certify", "diagnose", "compare", "budget", "sensitivity"}) {
+  for (const char* verb : {"fit", "certify", "diagnose", "compare"}) {
     const AppResult result = RunApp(std::string(verb) + " ''");
     EXPECT_EQ(result.exit_code, 1) << verb;
     EXPECT_EQ(result.err, "lyrefit: CURVE: expected the name of a file, found nothing\n") << verb;
@@ -182,12 +182,11 @@ TEST(Verbs, HelpThatCannotBeWrittenIsAnError) {
 TEST(Verbs, RefuseNumbersThatCountNothing) {
   const TempFolder folder;
   const std::string cases[] = {
-      "fit " + kCurve + "--threads -3",         "diagnose " + kCurve + "--threads -3",
-      "compare " + kCurve + "--threads -3",     "budget " + kCurve + "--threads 5000",
-      "sensitivity " + kCurve + "--threads -1", "certify " + kCurve + "--cells -1",
-      "compare " + kCurve + "--runs -1",        "compare " + kCurve + "--runs 0",
-      "compare " + kCurve + "--seed -1",        "simulate --set Iph=1 --points -5",
-      "fit " + kCurve + "--loss-scale -1",
+      "fit " + kCurve + "--threads -3",     "diagnose " + kCurve + "--threads -3",
+      "compare " + kCurve + "--threads -3", "compare " + kCurve + "--threads 5000",
+      "certify " + kCurve + "--cells -1",   "compare " + kCurve + "--runs -1",
+      "compare " + kCurve + "--runs 0",     "compare " + kCurve + "--seed -1",
+      "simulate --set Iph=1 --points -5",   "fit " + kCurve + "--loss-scale -1",
   };
   for (const std::string& arguments : cases) {
     const AppResult result = RunApp(arguments);
@@ -199,8 +198,7 @@ TEST(Verbs, RefuseNumbersThatCountNothing) {
 
 TEST(Verbs, ThatPrintAReportKnowQuiet) {
   SKIP_IF_SANITIZED();
-  for (const char* verb :
-       {"fit", "certify", "diagnose", "compare", "budget", "sensitivity", "datasheet", "audit"}) {
+  for (const char* verb : {"fit", "certify", "diagnose", "compare", "datasheet", "audit"}) {
     EXPECT_THAT(RunApp(std::string(verb) + " --help").out, HasSubstr("--quiet")) << verb;
   }
   const AppResult audit = RunApp("audit '" + DataFolder("paper") + "/rows.csv' --quiet");

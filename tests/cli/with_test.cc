@@ -108,12 +108,12 @@ TEST(With, SaysWhatIsWrongWithAnEffect) {
 
 TEST(With, SearchesAreComparedOnIt) {
   SKIP_IF_SANITIZED();
-  const AppResult budget =
-      RunApp("budget " + kShaded +
-             " --with shading:w=0.3333 --models sd --algorithms random --budgets 20 --runs 2 "
-             "--multistart 2");
-  ASSERT_EQ(budget.exit_code, 0) << budget.err;
-  EXPECT_THAT(budget.out, HasSubstr("solved-current, with shading:w=0.3333"));
+  const AppResult compare =
+      RunApp("compare " + kShaded +
+             " --with shading:w=0.3333 --models sd --algorithms random --population 5 "
+             "--iterations 4 --runs 2");
+  ASSERT_EQ(compare.exit_code, 0) << compare.err;
+  EXPECT_THAT(compare.out, HasSubstr("solved-current, with shading:w=0.3333"));
 }
 
 }  // namespace

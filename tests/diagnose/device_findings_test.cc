@@ -185,5 +185,55 @@ TEST(CheckTemperatureAndCellsTest, SaysOnlyWhatIsPossible) {
   EXPECT_THAT(impossible.device_findings.front().sentence, HasSubstr("less than any junction has"));
 }
 
+TEST(MainCause, IsOfTheDeviceBeforeTheMeasurement) {
+  Diagnosis diagnosis;
+  EXPECT_EQ(MainCause(diagnosis).id, "");
+  DeviceFinding finding;
+  finding.id = "series_resistance";
+  finding.value.value = 0.28;
+  finding.healthy_limit = 0.14;
+  finding.power_loss = 0.12;
+  finding.sentence = "drops 28.1 % of Voc in its series resistance";
+  diagnosis.device_findings = {finding};
+  const Cause out_of_range = MainCause(diagnosis);
+  EXPECT_EQ(out_of_range.id, "series_resistance");
+  EXPECT_EQ(out_of_range.title, "series resistance above that of healthy devices");
+  EXPECT_EQ(out_of_range.group, "device");
+  EXPECT_EQ(out_of_range.sentence, "it drops 28.1 % of Voc in its series resistance");
+  EXPECT_EQ(out_of_range.power_effect.value, 0.12);
+
+  finding.id = "ideality";
+  finding.value.value = 0.7;
+  finding.healthy_limit = 1;
+  diagnosis.device_findings = {finding};
+  EXPECT_EQ(MainCause(diagnosis).id, "low_ideality");
+  EXPECT_EQ(MainCause(diagnosis).group, "conditions");
+
+  Cause cause;
+  cause.id = "shading";
+  diagnosis.verdict.causes = {cause};
+  EXPECT_EQ(MainCause(diagnosis).id, "shading");
+  EXPECT_EQ(MainCause(diagnosis).group, "device");
+
+  // A reading left out does not hide a device that is out of range; moved light does, and a fault of
+  // the device comes before both.
+  finding.id = "leak";
+  finding.value.value = 0.05;
+  finding.healthy_limit = 0.016;
+  diagnosis.device_findings = {finding};
+  cause.id = "outliers";
+  diagnosis.verdict.causes = {cause};
+  EXPECT_EQ(MainCause(diagnosis).id, "leak");
+  EXPECT_NE(MainCause(diagnosis).action, "");
+  cause.id = "irr_step";
+  diagnosis.verdict.causes = {cause};
+  EXPECT_EQ(MainCause(diagnosis).id, "irr_step");
+  EXPECT_EQ(MainCause(diagnosis).group, "sweep");
+  Cause fault;
+  fault.id = "weak_cell";
+  diagnosis.verdict.causes.push_back(fault);
+  EXPECT_EQ(MainCause(diagnosis).id, "weak_cell");
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -74,11 +74,6 @@ TEST(DiagnosisText, SaysAllIfItIsAsked) {
   add("two causes below the floor", [](Diagnosis* diagnosis) {
     diagnosis->verdict.below_floor = {SampleStepCause(), SampleStepCause()};
   });
-  add("with a plan", [](Diagnosis* diagnosis) { diagnosis->plan = SamplePlan(); });
-  add("with a plan without measurements", [](Diagnosis* diagnosis) {
-    diagnosis->plan = SamplePlan();
-    diagnosis->plan->measurements.clear();
-  });
   // Such a cause has no p-value and no strength.
   add("a cause seen in the values", [](Diagnosis* diagnosis) {
     Cause& cause = diagnosis->verdict.causes[0];

@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "diagnose/synthetic_diagnosis.h"
-#include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/law_coordinates.h"
+#include "lyrefit/effects/odd_cells.h"
 #include "repeats.h"
 #include "synthetic_data.h"
 
@@ -392,7 +392,8 @@ TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
   fit.law.effects = {FindEffect("weak_cell")};
   fit.p = LawCoordinates(fit.law, *made.weighted.readings).Parameters({1, 0, 1.2, 0.015, 1e-3});
   fit.p.insert(fit.p.end(), weak.begin(), weak.end());
-  const HotCell hot = FindHotCell(made.weighted, fit, 0);
+  const HotCell hot = FindHotCell(
+      {*made.weighted.readings, fit.law, fit.p, 0, fit.p.data() + fit.law.Offset(0), {}});
   EXPECT_NEAR(hot.voltage_V, -3.2 * std::pow(0.6, 1 / 3.4), 0.15);
   EXPECT_NEAR(hot.heat_W, -hot.voltage_V * 8, 1.5);
   const Diagnosis d = DiagnosedInTheField(done.curve);

@@ -14,16 +14,22 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(PriorTableTest, NamesEffectsAndItsSources) {
+TEST(EffectPriorTest, NamesItsSource) {
   double sum = 0;
-  for (const CausePrior& prior : PriorTable()) {
-    EXPECT_NE(FindEffect(prior.id), nullptr) << prior.id;
-    EXPECT_STRNE(prior.source, "") << prior.id;
-    EXPECT_GT(prior.in_cells, 0) << prior.id;
-    EXPECT_GT(prior.in_modules, 0) << prior.id;
+  int stated = 0;
+  for (const Effect* effect : Catalogue()) {
+    const EffectPrior& prior = effect->prior;
+    EXPECT_EQ(prior.in_cells > 0, prior.in_modules > 0) << effect->id;
+    EXPECT_EQ(*prior.source != '\0', prior.in_modules > 0) << effect->id;
     sum += prior.in_modules;
+    stated += prior.in_modules > 0 ? 1 : 0;
   }
+  EXPECT_EQ(stated, 31);
   EXPECT_LT(sum, 1);
+}
+
+double Of(const CausePriors& priors, const char* id, bool module) {
+  return priors.Of(*FindEffect(id), module);
 }
 
 class ReadPriorsTest : public ::testing::Test {
@@ -39,9 +45,9 @@ class ReadPriorsTest : public ::testing::Test {
 TEST_F(ReadPriorsTest, ReplacesThoseOfTheTable) {
   const auto priors = Read(R"({"shading": 0.25})");
   ASSERT_TRUE(priors);
-  EXPECT_EQ(priors->Of("shading", true), 0.25);
-  EXPECT_EQ(priors->Of("drift", true), CausePriors().Of("drift", true));
-  EXPECT_EQ(priors->Of("an effect of one's own", false), kOtherPrior);
+  EXPECT_EQ(Of(*priors, "shading", true), 0.25);
+  EXPECT_EQ(Of(*priors, "drift", true), Of({}, "drift", true));
+  EXPECT_EQ(priors->Of(Effect(), false), kOtherPrior);
 }
 
 TEST_F(ReadPriorsTest, SaysWhatIsWrongAndWhere) {
@@ -54,7 +60,7 @@ TEST_F(ReadPriorsTest, SaysWhatIsWrongAndWhere) {
 TEST(PriorsNamedTest, AlikeGivesAllTheSame) {
   const auto alike = PriorsNamed("alike");
   ASSERT_TRUE(alike);
-  EXPECT_EQ(alike->Of("shading", true), alike->Of("clip", false));
+  EXPECT_EQ(Of(*alike, "shading", true), Of(*alike, "clip", false));
 }
 
 TEST(PriorFactorTableTest, NamesEffectsAndItsSources) {
@@ -70,7 +76,7 @@ TEST(PriorFactorTableTest, SetupAgeAndTechnologyCount) {
   CausePriors priors;
   const auto in = [&](const Circumstances& where, const char* id) {
     priors.where = where;
-    return priors.Of(id, true) / CausePriors().Of(id, true);
+    return Of(priors, id, true) / Of({}, id, true);
   };
   EXPECT_LT(in({Setup::kFlash, true}, "shading"), 1);
   EXPECT_LT(in({Setup::kLaboratory, true}, "shading"), 1);
@@ -81,7 +87,7 @@ TEST(PriorFactorTableTest, SetupAgeAndTechnologyCount) {
   EXPECT_GT(in({Setup::kUnknown, true, false, "CdTe", {}}, "nonohmic_shunt"), 1);
   priors.given["shading"] = 0.25;  // replaces number and factor
   priors.where = {Setup::kFlash, true};
-  EXPECT_EQ(priors.Of("shading", true), 0.25);
+  EXPECT_EQ(Of(priors, "shading", true), 0.25);
 }
 
 TEST(WhyNotThereTest, NoSkyInAFlasherAndNoChargeInSlowSweeps) {

@@ -188,7 +188,9 @@ inline DeviceFinding SampleLeak() {
           0.016,
           0.04,
           "leaks 3.1 % (2.9 to 3.3) of Isc at Voc, twice what healthy modules do (at most 1.6 %)"
-          ": -4.0 % of Pmax; potential-induced degradation, a shunted cell or an edge"};
+          ": -4.0 % of Pmax; potential-induced degradation, a shunted cell or an edge",
+          false,
+          {10.2, 9.2, 11.3}};
 }
 
 // One sweep with an irradiance step, which was found.
@@ -206,17 +208,6 @@ inline Diagnosis SampleDiagnosis() {
   d.verdict.causes = {cause};
   d.verdict.sentence = "The light stepped down by 1.9 % during the sweep.";
   return d;
-}
-
-// Further measurements that distinguish two causes.
-inline Plan SamplePlan() {
-  return {{"irr_step", "drift"},
-          {{"reverse_sweep",
-            "the sweep backwards",
-            "noise as measured",
-            0.97,
-            {{"irr_step", 0.96, 3.5, "drift"}, {"drift", 0.98, kUnknown, "irr_step"}}}},
-          "take the sweep backwards"};
 }
 
 inline Diagnosis SampleUpDown() {

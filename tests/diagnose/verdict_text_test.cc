@@ -89,7 +89,7 @@ TEST(DescribeVerdict, SilenceNamesWhatIsNeverShown) {
 }
 
 TEST(DescribeVerdict, SomethingToActOnIsNotCalledNothing) {
-  const DeviceFinding leak = {"leak", "", {0.031, 0.029, 0.033}, 0.016, 0.04, ""};
+  const DeviceFinding leak = {"leak", "", {0.031, 0.029, 0.033}, 0.016, 0.04, "", false, {}};
   const std::string ill = Told({}, {leak}).sentence;
   EXPECT_THAT(ill,
               HasSubstr("a leak of 3.1 % of Isc at Voc (-4.0 % of Pmax). One sweep cannot show"));

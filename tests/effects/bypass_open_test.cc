@@ -28,12 +28,5 @@ TEST(BypassOpenTest, LeavesADimSubstring) {
                       {{{{{20, 0.4, 0}, {40, 1, 0}}}, false}}, ConductSoftly);
 }
 
-TEST(BypassOpenTest, IsGoneWhereItsCellIsCovered) {
-  const Effect& effect = *FindEffect("bypass_open");
-  std::vector<double> p = {0.6, 1.0 / 3, 12, 5, 1, 1};
-  EXPECT_FALSE(effect.covered(p.data(), 0, 3));
-  EXPECT_TRUE(effect.covered(p.data(), 1, 3));
-}
-
 }  // namespace
 }  // namespace lyrefit

@@ -23,15 +23,6 @@ TEST(CoveredEdgeTest, HasALargeFirstSubstringAndASoftReverseLaw) {
                       });
 }
 
-// Without one covered substring, the parameters of the others move up.
-TEST(CoveredEdgeTest, LosesTheCoveredSubstring) {
-  std::vector<double> p = {0.6, 0.2, 0.45, 0.1, 0.3, 0.15, 0, 0.1, 0.5, 0, 60};
-  ASSERT_TRUE(FindEffect("covered_edge")->covered(p.data(), 1, 3));
-  EXPECT_EQ(p[0], 0.6);
-  EXPECT_EQ(p[2], 0.3);
-  EXPECT_EQ(p[3], 0.15);
-}
-
 TEST(CoveredEdgeTest, NeedsTwoToFourSubstrings) {
   DataTraits traits = SyntheticReadings(DataKind::kForward, 60).traits;
   const Effect& effect = *FindEffect("covered_edge");

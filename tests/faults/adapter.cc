@@ -119,7 +119,9 @@ std::string FindingOf(const std::string& id) {
 }
 
 double PriorOf(const std::string& id, bool module, Mode mode) {
-  return lyrefit::CausePriors{{}, mode == Mode::kLaboratory, ""}.Of(id, module);
+  const lyrefit::Effect* effect = lyrefit::FindEffect(id);
+  return lyrefit::CausePriors{{}, mode == Mode::kLaboratory, ""}.Of(
+      effect != nullptr ? *effect : lyrefit::Effect(), module);
 }
 
 }  // namespace faults

@@ -102,7 +102,7 @@ foreach(task "fit;data/rtc_france;--model;dd" "diagnose;data/formats/head_tracer
   endif()
   message(STATUS "the same ${length} bytes of JSON: ${task}")
 endforeach()
-run(${CMAKE_COMMAND} -DLIBRARY=${PREFIX}/${LIBDIR}/liblyrefit.so -DHEADERS=${PREFIX}/include -DNM=${NM}
+run(${CMAKE_COMMAND} -DLIBRARY=${PREFIX}/${LIBDIR}/liblyrefit.so -DHEADERS=${PREFIX}/include -DPLANT=${SOURCE}/apps/plant -DNM=${NM}
     -P ${HERE}/symbols.cmake)
 
 # A part of another project. Its own file is compiled, and linked by the line that its build has for it, for which the

@@ -1,9 +1,16 @@
-# What the shared library shows: names that a public header says, nothing of the closed ones and nothing of the
-# libraries inside.
-#   cmake -DLIBRARY=<liblyrefit.so> -DHEADERS=<installed include folder> -DNM=<nm> -P symbols.cmake
+# What the shared library shows: names that a public header says, installed or of the command's own part in it (apps/plant),
+# nothing of the closed ones and nothing of the libraries inside.
+#   cmake -DLIBRARY=<liblyrefit.so> -DHEADERS=<installed include folder> -DPLANT=<apps/plant> -DNM=<nm> -P symbols.cmake
 cmake_minimum_required(VERSION 3.25)
 
 file(GLOB_RECURSE headers "${HEADERS}/lyrefit/*.h")
+file(GLOB own "${PLANT}/*.h")
+foreach(header IN LISTS own)
+  file(STRINGS "${header}" shown REGEX "^namespace LYREFIT_PUBLIC ")
+  if(shown)
+    list(APPEND headers "${header}")
+  endif()
+endforeach()
 set(said)
 foreach(header IN LISTS headers)
   file(READ "${header}" text)

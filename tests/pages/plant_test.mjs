@@ -1,4 +1,4 @@
-// The page of a plant in a browser, of made rows (tests/batch/synthetic_rows.h):
+// The page of a plant in a browser, of made rows (tests/plant/synthetic_rows.h):
 //   SYNTHETIC_PLANT_PAGE=synthetic_plant_page CHROMIUM=chromium OUT=folder node --test plant_test.mjs
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';

@@ -22,6 +22,7 @@
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/report/compare_plot.h"
 #include "pagmo_searcher.h"
+#include "paper/budget_figure.h"
 #include "paper/corner_page.h"
 #include "paper/corner_study.h"
 #include "paper/held_tables.h"

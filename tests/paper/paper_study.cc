@@ -40,6 +40,25 @@ constexpr Section kSections[] = {{"msx60", &PaperStudy::msx60},
                                  {"budget", &PaperStudy::budget},
                                  {"s75", &PaperStudy::s75}};
 
+// MLO with every pair of Pm (outer loop) and gamma of `steps`, named "Pm=0.5 gamma=0.25".
+std::vector<ComparedAlgorithm> SensitivityAlgorithms(const std::vector<double>& steps,
+                                                     const SearchOptions& search) {
+  std::vector<ComparedAlgorithm> result;
+  for (const double memory_rate : steps) {
+    for (const double distance_coefficient : steps) {
+      ComparedAlgorithm compared;
+      compared.name = fmt::format("Pm={:g} gamma={:g}", memory_rate, distance_coefficient);
+      compared.algorithm = ToText(Algorithm::kMlo);
+      compared.search = search;
+      compared.search.algorithm = Algorithm::kMlo;
+      compared.search.memory_rate = memory_rate;
+      compared.search.distance_coefficient = distance_coefficient;
+      result.push_back(std::move(compared));
+    }
+  }
+  return result;
+}
+
 class PaperRun {
  public:
   PaperRun(std::string folder, const PaperStudyOptions& options, const Observer& observer)
@@ -227,9 +246,8 @@ class PaperRun {
     CompareOptions options =
         Options({Model::kTripleDiode}, study_.options.batch * study_.options.sensitivity_batches);
     options.polish = false;
-    return Study(Subject("rtc_france", "literature"),
-                 SensitivityAlgorithms(steps, steps, PaperSearch()), options,
-                 &PaperStudy::sensitivity);
+    return Study(Subject("rtc_france", "literature"), SensitivityAlgorithms(steps, PaperSearch()),
+                 options, &PaperStudy::sensitivity);
   }
 
   // The paper does not state the number of diodes fitted to the S75. Its standard deviations of

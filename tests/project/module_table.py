@@ -15,6 +15,7 @@ TESTED_BY = {"stream": "batch", "settings": "cli"}
 # Folder, target, tests.
 APPS = (
     ("apps/lyrefit", "check_cli", "^cli/"),
+    ("apps/plant", "check_plant", "^plant/"),
     ("apps/python", "lyrefit_python_stubs", "^python/"),
     ("apps/slurm", "lyrefit_app", "^slurm"),
     ("apps/web", "check_web", "^web/"),

@@ -120,13 +120,11 @@ TEST(DrawHtml, IsWellFormedForEveryRecord) {
   fit.curve.name = "<!-- & ]]> \"curve\" \x07 \xe9";
   fit.warnings = {"a < b"};
   fit.usable = false;
-  Diagnosis diagnosis = SampleDiagnosis();
-  diagnosis.plan = SamplePlan();
   const std::vector<Document> documents = {HostileDocument(),
                                            FitDocument(fit),
                                            FitsDocument({{"<a>", fit}, {"b", Fail("x < y")}}),
                                            FamilyDocument(MakeSampleFamily(8).report),
-                                           DiagnosisDocument(diagnosis),
+                                           DiagnosisDocument(SampleDiagnosis()),
                                            ReferenceDocument(SampleReference()),
                                            OutlierSweepsDocument(SampleOutlierSweeps()),
                                            CertificateDocument(RtcCertificate()),

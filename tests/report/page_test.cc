@@ -61,6 +61,17 @@ TEST(DrawPage, SaysVerdictAndWarningsFirstThenThePictureThenTheRest) {
   EXPECT_EQ(Count(html, "<h2>Warnings</h2>"), 1);
 }
 
+TEST(WithVerdictAhead, StandsBeforeTheLinesOfThePageAndReplacesItself) {
+  const std::string html = DrawPage(FitDocument(SampleReport()), JsonReport(SampleReport()));
+  const std::string once = WithVerdictAhead(html, {"Module <missing>.", "To do: count."}, "Alone:");
+  ExpectInOrder(once, {"<h2>Verdict</h2>", "<strong>Module &lt;missing&gt;.</strong>",
+                       "<strong>To do: count.</strong>", "<p>Alone:</p>", "<p>", "<main"});
+  EXPECT_EQ(WithVerdictAhead(WithVerdictAhead(html, {"Another."}, "Alone:"),
+                             {"Module <missing>.", "To do: count."}, "Alone:"),
+            once);
+  EXPECT_EQ(WithVerdictAhead("<p>no verdict</p>", {"A line."}, "Alone:"), "<p>no verdict</p>");
+}
+
 TEST(DrawPage, SaysTheVerdictOfADiagnosisOnce) {
   const Diagnosis diagnosis = SampleDiagnosis();
   const Document document = DiagnosisDocument(diagnosis);

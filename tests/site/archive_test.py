@@ -67,7 +67,7 @@ class Archive(unittest.TestCase):
             where = page.relative_to(SITE)
             if where.parts[0] != "cpp":
                 named |= dict.fromkeys(data_in_code(page.read_text(encoding="utf-8")), where)
-        self.assertTrue({"data/rtc_france", "data/stm6_40_36", "data/paper/rows.csv"} <= set(named), named)
+        self.assertTrue({"data/rtc_france", "data/pwp201", "data/paper/rows.csv"} <= set(named), named)
         self.assertEqual({name: where for name, where in named.items() if not self.has(name)}, {})
 
     def has(self, name):

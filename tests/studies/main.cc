@@ -1,7 +1,6 @@
 // Studies of the library that measure, with its own code, what it promises.
 //
 //   lyrefit_studies coverage --sets 500
-//   lyrefit_studies landscape --problems strings_2,td_wide --devices 10
 //   lyrefit_studies junctions --spectra three
 //   lyrefit_studies truth case1.json case1.csv --family free
 
@@ -13,16 +12,15 @@ namespace lyrefit {
 namespace {
 
 constexpr char kUsage[] =
-    "Usage: lyrefit_studies coverage|junctions|landscape|truth [words]; the flags are listed in\n"
+    "Usage: lyrefit_studies coverage|junctions|truth [words]; the flags are listed in\n"
     "tests/studies/README.md\n";
 
 Expected<int> Run(const std::string& study, const std::vector<std::string>& words) {
   WatchSignals();
   if (study == "coverage") return RunCoverage(ReadProgramFlags(words));
   if (study == "junctions") return RunJunctions(ReadProgramFlags(words));
-  if (study == "landscape") return RunLandscape(ReadProgramFlags(words));
   if (study == "truth") return RunTruth(ReadProgramFlags(words));
-  return Fail("no study '" + study + "': expected coverage, junctions, landscape or truth");
+  return Fail("no study '" + study + "': expected coverage, junctions or truth");
 }
 
 }  // namespace

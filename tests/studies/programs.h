@@ -11,10 +11,6 @@ Expected<int> RunCoverage(ProgramFlags flags);
 // The options of junctions.h.
 Expected<int> RunJunctions(ProgramFlags flags);
 
-// --problems LIST|all, --devices N, --algorithms LIST, --budgets LIST, --resume FILE, --csv FILE,
-// --plot FILE and runs, seed, threads and multistart of compare_options.h.
-Expected<int> RunLandscape(ProgramFlags flags);
-
 // CURVES TRUTH.csv, --family free|desoto|pvsyst, --bound P=LOWER:UPPER, --noise NAME, --csv FILE.
 Expected<int> RunTruth(ProgramFlags flags);
 

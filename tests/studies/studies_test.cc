@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "../repeats.h"
 #include "cli/run_app.h"
 
@@ -12,64 +10,7 @@ namespace lyrefit {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::StartsWith;
-
-const std::string kSmall =
-    "landscape --problems strings_2,td_wide --devices 2 --algorithms shape,mlo,random "
-    "--budgets 10,40 --multistart 2 ";
-
-// `count` columns of every line, from column `from` on.
-std::string Columns(const std::string& csv, std::size_t from, std::size_t count) {
-  std::string kept;
-  std::size_t column = 0;
-  for (const char letter : csv) {
-    if (column >= from && column < from + count) kept += letter;
-    if (letter == ',') ++column;
-    if (letter == '\n') column = 0;
-  }
-  return kept;
-}
-
-TEST(LandscapeStudy, SumsUpTheDevicesOfEachProblem) {
-  SKIP_IF_SANITIZED();
-  const TempFolder folder;
-  const AppResult result =
-      RunApp(kSmall + "--csv " + folder.Path("a.csv") + " --plot " + folder.Path("budget.svg"));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("Which search, from which budget, or none\n  strings_2: "));
-  EXPECT_THAT(result.out, HasSubstr("starts from the curve's shape alone hit "));
-  EXPECT_THAT(result.out,
-              HasSubstr("best candidate: hits of 2 runs, median time of a run (solved-"));
-  EXPECT_THAT(result.out,
-              HasSubstr("best candidate: hits of 2 runs, median time of a run (measured-"));
-  EXPECT_THAT(result.out, HasSubstr("All problems, 4 blocks"));
-  EXPECT_THAT(result.out, Not(HasSubstr("nan")));
-  const std::string csv = FileText(folder.Path("a.csv"));
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 5);
-  EXPECT_THAT(csv, HasSubstr("strings_2 1,sd,solved-current,"));
-  for (const char* panel : {"strings_2: search alone", "strings_2: all starts"}) {
-    EXPECT_THAT(FileText(folder.Path("budget.svg")), HasSubstr(panel));
-  }
-}
-
-TEST(LandscapeStudy, HasTheSameBitsOnAnyThreadsAndWhenTakenUp) {
-  SKIP_IF_SANITIZED();
-  const TempFolder folder;
-  const auto run = [&](const std::string& flags) {
-    const AppResult result = RunApp(kSmall + flags + " --csv " + folder.Path("runs.csv"));
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return FileText(folder.Path("runs.csv"));
-  };
-  const std::string whole = run("--threads 1");
-  const std::string journal = "--resume " + folder.Path("study.jsonl");
-  const std::string three = run("--threads 3 " + journal);
-  EXPECT_EQ(Columns(three, 0, 14), Columns(whole, 0, 14));
-  EXPECT_EQ(run("--threads 2 " + journal), three) << "seconds too: they are those of the runs";
-  const AppResult other = RunApp(kSmall + "--seed 2 " + journal);
-  EXPECT_EQ(other.exit_code, 1);
-  EXPECT_THAT(other.err, HasSubstr("this study was begun with"));
-}
 
 TEST(CoverageStudy, CountsTheIntervalsThatHold) {
   const TempFolder folder;
@@ -118,17 +59,11 @@ TEST(Studies, RefuseWhatTheyDoNotKnow) {
     const char* arguments;
     const char* says;
   } cases[] = {
-      {"tides", "no study 'tides': expected coverage, junctions, landscape or truth"},
+      {"tides", "no study 'tides': expected coverage, junctions or truth"},
       {"coverage --setts 3", "unknown flag --setts"},
       {"coverage --sets 0", "sets = 0 is outside [1, "},
       {"coverage --set Iph=8", "no value for Is1"},
       {"coverage --model td --sets 1", "expected sd or dd"},
-      {"landscape curve.csv", "no curve is read"},
-      {"landscape --models sd", "--models: every problem has its own"},
-      {"landscape --problems strings_2,strings_2", "strings_2 is named twice"},
-      {"landscape --problems caves", "expected one of strings_2"},
-      {"landscape --algorithms tabu", "shape, default or pagmo:NAME, found 'tabu'"},
-      {"landscape --budgets 2", "--budgets: expected a whole number from 4"},
       {"truth a.json", "expected a set of curves and a table of their truth"},
       {"truth a.json b.csv --family auto", "--family: expected free or one of"},
   };

@@ -27,15 +27,6 @@ TEST(PlainAlgorithms, TakeTheSettingsOfTheSearch) {
   EXPECT_EQ(algorithms[1].algorithm, "de");
 }
 
-TEST(SensitivityAlgorithms, HaveThePmInTheOuterLoop) {
-  const auto algorithms = SensitivityAlgorithms({0, 0.5}, {0.25, 1}, {});
-  EXPECT_THAT(Names(algorithms), ElementsAre("Pm=0 gamma=0.25", "Pm=0 gamma=1", "Pm=0.5 gamma=0.25",
-                                             "Pm=0.5 gamma=1"));
-  EXPECT_EQ(algorithms[2].search.memory_rate, 0.5);
-  EXPECT_EQ(algorithms[2].search.distance_coefficient, 0.25);
-  EXPECT_EQ(algorithms[2].search.algorithm, Algorithm::kMlo);
-}
-
 TEST(BudgetAlgorithms, HaveTheAlgorithmInTheOuterLoop) {
   const auto algorithms = BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {10, 420});
   EXPECT_THAT(Names(algorithms), ElementsAre("mlo@10", "mlo@420", "random@10", "random@420"));

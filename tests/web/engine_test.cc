@@ -225,7 +225,7 @@ TEST(Engine, FormsAreTheOptionTables) {
     EXPECT_THAT(fit, Contains(name));
   }
   const std::set<std::string> diagnose = names(forms["diagnose"]);
-  for (const char* name : {"cells", "base", "effects", "probability", "no-held-out", "plan"}) {
+  for (const char* name : {"cells", "base", "effects", "probability", "no-held-out"}) {
     EXPECT_THAT(diagnose, Contains(name));
   }
   const std::set<std::string> translate = names(forms["translate"]);

@@ -12,8 +12,6 @@ extern const Verb kFitVerb;
 extern const Verb kSimulateVerb;
 extern const Verb kCertifyVerb;
 extern const Verb kCompareVerb;
-extern const Verb kBudgetVerb;
-extern const Verb kSensitivityVerb;
 extern const Verb kDataSheetVerb;
 extern const Verb kAuditVerb;
 extern const Verb kDiagnoseVerb;

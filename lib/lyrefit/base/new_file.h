@@ -1,9 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lyrefit/base/descriptor.h"
 #include "lyrefit/base/error.h"
@@ -27,7 +27,7 @@ class NewFile {
   // Gives the complete file its name.
   Expected<void> Commit();
   // Gives no file its name before all are complete and on the disk.
-  static Expected<void> Commit(std::initializer_list<NewFile*> files);
+  static Expected<void> Commit(const std::vector<NewFile*>& files);
 
  private:
   tl::unexpected<Error> CannotWrite(int reason) const;

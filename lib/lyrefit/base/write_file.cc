@@ -218,7 +218,7 @@ Expected<void> NewFile::Commit() {
   return Name();
 }
 
-Expected<void> NewFile::Commit(std::initializer_list<NewFile*> files) {
+Expected<void> NewFile::Commit(const std::vector<NewFile*>& files) {
   for (NewFile* file : files) TRY(file->Complete(true));
   for (NewFile* file : files) TRY(file->Name());
   return {};

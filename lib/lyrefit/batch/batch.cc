@@ -12,7 +12,7 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/batch/campaign_results.h"
+#include "lyrefit/batch/addition.h"
 #include "lyrefit/batch/checkpoint.h"
 #include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/pipeline.h"
@@ -25,9 +25,8 @@ namespace lyrefit {
 namespace {
 
 BatchJson OptionsJson(const BatchTaskType& task, const BatchOptions& options) {
-  BatchJson json = {{"seed", options.seed},
-                    {"group-level", options.group_level},
-                    {"like-light", options.like_light}};
+  BatchJson json = {{"seed", options.seed}};
+  for (const auto& addition : options.additions) addition->AddOptions(&json);
   if (options.pages != PagesOf::kNone) json["pages"] = ToText(options.pages);
   if (options.interactive_pages) json["interactive-pages"] = true;
   if (options.raw_csv) json["raw-csv"] = true;
@@ -44,10 +43,6 @@ BatchJson OptionsJson(const BatchTaskType& task, const BatchOptions& options) {
 std::vector<ResultColumn> RowColumns(const BatchTaskType& task, const BatchOptions& options) {
   std::vector<ResultColumn> columns = CommonColumns();
   columns.insert(columns.end(), task.columns.begin(), task.columns.end());
-  if (!options.before.empty()) {
-    columns.push_back({kBypassDiodesColumn, "", CellType::kWhole,
-                       "bypass diodes of the string, as stated beside the curve"});
-  }
   if (options.pages != PagesOf::kNone) {
     columns.push_back({"page", "", CellType::kText,
                        "the curve's own page: a path from the folder of the results"});
@@ -90,11 +85,6 @@ TaskResult WithDoubt(TaskResult result, const BatchCurve& curve) {
   return result;
 }
 
-ResultCell BypassDiodes(const BatchCurve& curve) {
-  if (!curve.curve || !curve.curve->notes.bypass_diodes) return {};
-  return std::int64_t{*curve.curve->notes.bypass_diodes};
-}
-
 bool Holds(const std::vector<std::string>& sentences, const std::string& sentence) {
   return std::find(sentences.begin(), sentences.end(), sentence) != sentences.end();
 }
@@ -124,7 +114,6 @@ class RowMaker {
     ResultRow row = {CommonCells(curve, item, result)};
     result.cells.resize(task_.columns.size());
     Append(std::move(result.cells), &row.cells);
-    if (!options_.before.empty()) row.cells.push_back(BypassDiodes(curve));
     PipelineStep step;
     step.broken = result.status == RowStatus::kBroken;
     step.interrupted = result.interrupted;
@@ -214,28 +203,17 @@ std::optional<std::pair<int, std::int64_t>> Pair(const std::optional<PipelinePla
   return std::make_pair(place->input, place->number);
 }
 
-// Reads the earlier results and names them in the head. Returns their copy for the folder; empty if
-// there are none.
-Expected<std::string> TakeEarlier(const BatchTaskType& task, const BatchOptions& options,
-                                  CheckpointHead* head) {
-  if (options.before.empty()) return std::string();
-  if (ColumnPlace(task.columns, kFigureColumns[0]) == task.columns.size()) {
-    return Fail(
-        "earlier results are compared at standard conditions: --before is for --task "
-        "field-test");
+// Begins the additions with all options of the run. Returns the files that they keep beside the
+// checkpoint.
+Expected<std::vector<ResultFile>> BeginAdditions(const BatchTaskType& task,
+                                                 const BatchOptions& options,
+                                                 CheckpointHead* head) {
+  std::vector<ResultFile> kept;
+  for (const auto& addition : options.additions) {
+    TRY(auto files, addition->Begin(task, options.folder, &head->at("options")));
+    Append(std::move(files), &kept);
   }
-  std::error_code error;
-  if (std::filesystem::equivalent(options.before, options.folder, error)) {
-    return Fail("these are the earlier results: name another folder for those of this run",
-                options.folder);
-  }
-  TRY(const EarlierResults earlier, ReadEarlierResults(options.before));
-  BatchJson& echoed = head->at("options");
-  TRY(CheckSameCoefficients(earlier, echoed));
-  std::string text = EarlierText(earlier);
-  echoed[kBeforeOption] = EarlierDigest(text);
-  echoed["change-level"] = options.change_level;
-  return text;
+  return kept;
 }
 
 // True if the folder already has the results of this run, so that nothing is left to do.
@@ -274,20 +252,22 @@ std::uint64_t SeedOf(std::uint64_t seed, const std::string& id) {
   return z ^ (z >> 31);
 }
 
-Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
+Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& asked,
                                 const BatchOptions& options, const Observer& observer,
                                 const RowObserver& row_observer) {
   const Instant begin = Now();
-  TRY(CheckBatch(task, options));
+  TRY(CheckBatch(asked, options));
+  BatchTaskType task = asked;
+  for (const auto& addition : options.additions) addition->AddToTask(&task);
   BatchSummary summary;
   summary.version = Version();
   summary.task = task.name;
   summary.folder = options.folder;
   summary.seed = options.seed;
   const bool shard = options.shard.of > 1;
-  TRY(PrepareFolder(options.folder, shard || options.start != BatchStart::kNew));
+  TRY(PrepareFolder(options.folder, shard || options.start != BatchStart::kNew, options.additions));
   TRY(CheckpointHead head, HeadOf(*source, task, options));
-  TRY(const std::string earlier, TakeEarlier(task, options, &head));
+  TRY(const std::vector<ResultFile> kept, BeginAdditions(task, options, &head));
   TRY(summary.was_complete, AreThere(head, options));
   if (summary.was_complete) return summary;
   const PartStart start = options.start == BatchStart::kNew      ? PartStart::kNew
@@ -295,7 +275,8 @@ Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
                                                                  : PartStart::kReplace;
   const std::string path = CheckpointPath(options.folder, options.shard);
   TRY(const auto part, CheckpointFile::Open(path, head, start));
-  if (!earlier.empty()) TRY(WriteTextFile(EarlierCopyPath(options.folder), earlier));
+  const std::filesystem::path folder(options.folder);
+  for (const ResultFile& file : kept) TRY(WriteTextFile((folder / file.name).string(), file.text));
   summary.rows_before = part->rows();
   summary.was_complete = shard && part->complete();
   if (!part->complete()) {
@@ -313,13 +294,14 @@ Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
   if (shard) {
     TRY(static_cast<BatchCounts&>(summary), CountRows(path));
   } else {
-    TRY(auto results, WriteResults({path}, options.folder, observer, row_observer));
+    TRY(auto results,
+        WriteResults({path}, options.folder, options.additions, observer, row_observer));
     summary.interrupted = !results;
     if (summary.interrupted) return summary;
     static_cast<BatchResults&>(summary) = std::move(*results);
     TRY(part->Remove());
-    std::error_code error;  // there is none without earlier results
-    std::filesystem::remove(EarlierCopyPath(options.folder), error);
+    std::error_code error;
+    for (const ResultFile& file : kept) std::filesystem::remove(folder / file.name, error);
   }
   summary.seconds = SecondsSince(begin);
   return summary;

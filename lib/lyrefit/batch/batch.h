@@ -12,8 +12,6 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/batch/batch_options.h"
 #include "lyrefit/batch/batch_task.h"
-#include "lyrefit/batch/campaign_summary.h"
-#include "lyrefit/batch/sample_summary.h"
 #include "lyrefit/report/document.h"
 #include "lyrefit/stream/batch_source.h"
 
@@ -23,26 +21,19 @@ namespace LYREFIT_PUBLIC lyrefit {
 //
 // The results are written into one folder:
 //   results.csv           one row for each curve, always, in the order of the input; the columns
-//                         are those of CommonColumns, the task and NeighbourColumns
+//                         are those of every row, of the task and of BatchOptions::additions
 //   results.jsonl         one JSON object a line with the cells of results.csv; null: unknown
 //   pages/ID.html         one page for each curve, if requested (string_pages.h). It is written
 //                         before its row. --force writes a removed page again. A page that cannot
 //                         be written is a remark on its row
-//   samples.csv           of task `cell`: a row for each sample and direction with its statistics
-//   samples.jsonl         the same as JSON objects
-//   campaign.json         with BatchOptions::before: what the plant's strings have in common since
-//                         then, the changed, exchanged, gone and new ones
 //   results.schema.json   a Table Schema of both (specs.frictionlessdata.io/table-schema): names,
-//                         types, units and a description of each column, and the run's settings;
-//                         of task `cell` also the fields of samples.csv, under "samples"
+//                         types, units and a description of each column, and the run's settings
 // The files have the same bytes on any number of threads, machines, shards and resumed runs. Memory
-// does not grow with the number of curves, except by ten numbers a pixel for the statistics of
-// samples, and by 560 bytes a string with earlier results.
+// does not grow with the number of curves, but by what additions keep.
 //
 // During the run the rows are in results.part (checkpoint.h). A killed run loses only the curves in
 // progress. A shard of several writes shard-K-of-N.part, and MergeShards combines the shards into
-// results. All shards may use one folder. With earlier results a copy of their figures is in
-// before.part.
+// results. All shards may use one folder.
 
 // Number of rows that are broken or not usable for one reason.
 struct ReasonCount {
@@ -58,22 +49,23 @@ struct BatchCounts {
   std::map<std::string, std::int64_t> zones;     // number of rows for each zone of a field test
   // Number of rows for each cause, if the task reports causes.
   std::map<std::string, std::int64_t> causes;
-  // Number of rows for each cause of the scale; see WithPlan.
-  std::map<std::string, std::int64_t> plan_causes;
   // Number of rows for each subject of a cause; see AboutOf.
   std::map<std::string, std::int64_t> abouts;
   // Reasons with all numbers replaced by "N". Reasons beyond kMostReasons are counted together.
   std::map<std::string, ReasonCount> reasons;
-  std::int64_t compared = 0;  // number of strings with neighbours
-  std::int64_t flagged = 0;   // of `compared`: flagged as different
+};
+
+// What additions say in the report at the end of a run.
+struct AddedReport {
+  std::vector<block::Field> fields;  // of the head
+  std::vector<Section> sections;     // before the counts of rows
+  std::vector<Section> causes;       // beside the causes
 };
 
 // What the results of a whole run say of it.
 struct BatchResults : BatchCounts {
-  std::vector<ResultColumn> columns;   // columns of the results
-  std::vector<SampleSummary> samples;  // of task `cell`
-  std::string working_pixel;           // when a pixel works, in one sentence
-  CampaignSummary campaign;            // with earlier results
+  std::vector<ResultColumn> columns;  // columns of the results
+  AddedReport added;                  // by the additions of the run
 };
 
 // Summary of a run. A shard has counts alone.
@@ -94,20 +86,21 @@ constexpr int kMostReasons = 40;
 // Receives every row of the results in their order, directly after it is written.
 using RowObserver = std::function<void(const std::vector<ResultColumn>&, const ResultRow&)>;
 
-// Runs `task` on every curve of `source`. The observer receives stage "batch", whose `iteration`
+// Runs the task `asked` on every curve of `source`. The observer receives stage "batch", whose `iteration`
 // counts rows and whose `part` counts bytes. Errors: options outside their ranges; a folder that is
 // not writable; existing results or an unfinished run without permission to replace or resume them;
 // a run that cannot be resumed, since input, options or version differ or another process writes
 // it; a full disk. After an error the rows written before are kept, and --resume continues from
 // them.
-Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
+Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& asked,
                                 const BatchOptions& options, const Observer& observer = {},
                                 const RowObserver& row_observer = {});
 
 // Options of MergeShards.
 struct MergeOptions {
-  std::string folder;    // folder of the results
-  bool replace = false;  // overwrite existing results
+  std::string folder;             // folder of the results
+  bool replace = false;           // overwrite existing results
+  BatchAdditions additions = {};  // those of the runs of the shards
 };
 
 // Merges the shards in `folders` into results. Errors: missing or unfinished shards, listed by

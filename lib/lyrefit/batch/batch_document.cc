@@ -5,14 +5,10 @@
 #include <vector>
 
 #include "lyrefit/batch/batch.h"
-#include "lyrefit/batch/campaign_document.h"
 #include "lyrefit/batch/count_rows.h"
-#include "lyrefit/batch/sample_document.h"
 
 namespace lyrefit {
 namespace {
-
-constexpr std::size_t kMostChangesInText = 25;
 
 std::string ShareOfRows(std::int64_t rows, std::int64_t all) {
   return all == 0 ? "" : fmt::format("{:.1f} %", 100.0 * static_cast<double>(rows) / all);
@@ -43,17 +39,6 @@ std::vector<std::pair<std::string, Count>> Ordered(const std::map<std::string, C
 std::int64_t Itself(const std::int64_t& rows) { return rows; }
 std::int64_t RowsOf(const ReasonCount& count) { return count.rows; }
 
-Section Counts(const std::string& heading, const std::string& what,
-               const std::map<std::string, std::int64_t>& counts, std::int64_t all) {
-  Section section = {heading};
-  block::Table table = {"lrr", {{what, "rows", "share"}}};
-  for (const auto& [name, rows] : Ordered(counts, Itself)) {
-    table.rows.push_back({name, std::to_string(rows), ShareOfRows(rows, all)});
-  }
-  if (!table.rows.empty()) AddTable(std::move(table), &section);
-  return section;
-}
-
 Section Reasons(const BatchSummary& summary) {
   Section section = {"Why rows are not fine"};
   block::Table table = {"rlw", {{"rows", "first", "reason"}}};
@@ -67,6 +52,17 @@ Section Reasons(const BatchSummary& summary) {
 
 }  // namespace
 
+Section CountsSection(const std::string& heading, const std::string& what,
+                      const std::map<std::string, std::int64_t>& counts, std::int64_t all) {
+  Section section = {heading};
+  block::Table table = {"lrr", {{what, "rows", "share"}}};
+  for (const auto& [name, rows] : Ordered(counts, Itself)) {
+    table.rows.push_back({name, std::to_string(rows), ShareOfRows(rows, all)});
+  }
+  if (!table.rows.empty()) AddTable(std::move(table), &section);
+  return section;
+}
+
 Document BatchDocument(const BatchSummary& summary) {
   Document document;
   document.head = {fmt::format("lyrefit {}: {} of many curves", summary.version, summary.task)};
@@ -79,21 +75,16 @@ Document BatchDocument(const BatchSummary& summary) {
   AddField("done", Done(summary), &document.head);
   AddField("folder", summary.folder, &document.head);
   AddField("seed", std::to_string(summary.seed), &document.head);
-  if (summary.compared > 0) {
-    AddField("neighbours",
-             fmt::format(summary.samples.empty()
-                             ? "{} strings compared with those of their combiner, {} differ"
-                             : "{} pixels compared with those of their file or folder, {} differ",
-                         summary.compared, summary.flagged),
-             &document.head);
+  for (const block::Field& field : summary.added.fields) {
+    AddField(field.name, field.text, &document.head);
   }
-  AddSections(SampleSections(summary.samples, summary.working_pixel), &document);
-  AddSections(CampaignSections(summary.campaign, kMostChangesInText), &document);
-  AddSections({Counts("Status", "status", summary.statuses, summary.rows),
-               Counts("Against the rating", "zone", summary.zones, summary.rows),
-               Counts("Causes", "cause", summary.causes, summary.rows),
-               Counts("Against the plan", "cause", summary.plan_causes, summary.rows),
-               Counts("What the causes belong to", "about", summary.abouts, summary.rows),
+  AddSections(summary.added.sections, &document);
+  AddSections({CountsSection("Status", "status", summary.statuses, summary.rows),
+               CountsSection("Against the rating", "zone", summary.zones, summary.rows),
+               CountsSection("Causes", "cause", summary.causes, summary.rows)},
+              &document);
+  AddSections(summary.added.causes, &document);
+  AddSections({CountsSection("What the causes belong to", "about", summary.abouts, summary.rows),
                Reasons(summary)},
               &document);
   return document;

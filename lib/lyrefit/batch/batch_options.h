@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ enum class BatchStart {
   kReplace,  // start again
 };
 
+// Adds columns, files and sections to the results of a run (the closed header batch/addition.h), such
+// as comparisons of the rows with each other.
+class BatchAddition;
+using BatchAdditions = std::vector<std::shared_ptr<BatchAddition>>;
+
 // How many curves are processed at once, and where the rows are written.
 struct BatchOptions {
   std::string folder;  // folder of the results; created if missing
@@ -30,14 +36,6 @@ struct BatchOptions {
   BatchStart start = BatchStart::kNew;
   std::uint64_t seed = 0;  // of the run; each curve's seed is computed from it and the id
   int threads = 0;         // 0: all cores; no effect on results
-  // For the comparison of strings with their neighbours: see neighbours.h.
-  double group_level = 0.001;
-  double like_light = 0.05;
-  // Results of an earlier run of task field-test on the same plant, a folder or a file: each string
-  // is compared with its own earlier figures (campaign.h). Empty: none. The figures of both runs are
-  // kept in memory, 560 bytes a string.
-  std::string before;
-  double change_level = 0.05;
   // Pages of single curves in the folder of the results: see string_pages.h.
   PagesOf pages = PagesOf::kNone;
   bool interactive_pages = false;
@@ -48,6 +46,9 @@ struct BatchOptions {
   std::function<Expected<void>(const std::string& id, IvCurve* curve)> prepare;
   // Options of reading and preparation, for the digest of the run.
   std::vector<OptionEcho> reading;
+  // What is added to the results; its cells follow those of the task in this order. Empty: plain
+  // rows.
+  BatchAdditions additions;
 };
 
 inline constexpr OptionRow<BatchOptions> kBatchOptionTable[] = {
@@ -56,15 +57,6 @@ inline constexpr OptionRow<BatchOptions> kBatchOptionTable[] = {
      &BatchOptions::seed, 0, 1.8446744073709552e19},
     {"threads", "N", "0: all cores; never changes a result", &BatchOptions::threads, 0,
      kMostThreads, OptionTrait::kQuiet | OptionTrait::kNoEcho},
-    {"group-level", "", "rate at which healthy strings differ from those of their combiner",
-     &BatchOptions::group_level, 1e-6, 0.2},
-    {"like-light", "", "how far apart irradiances may be that are compared, in parts",
-     &BatchOptions::like_light, 0.001, 0.5},
-    {"before", "RESULTS", "earlier results of the same plant, a folder or results.jsonl",
-     &BatchOptions::before, OptionTrait::kNoFlag | OptionTrait::kNoEcho},
-    {"change-level", "",
-     "probability that any string without a change is called changed since --before",
-     &BatchOptions::change_level, 1e-6, 0.5},
     {"pages", "WHICH",
      "a page each, DIR/pages/ID.html, for those that failed or show a cause, or all",
      EnumOption<&BatchOptions::pages>()},

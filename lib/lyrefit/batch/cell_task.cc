@@ -7,7 +7,6 @@
 #include "lyrefit/base/append.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/pixel_state.h"
-#include "lyrefit/batch/samples.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/devices/cell_parts.h"
 #include "lyrefit/devices/describe_cell.h"

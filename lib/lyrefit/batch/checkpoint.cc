@@ -174,6 +174,11 @@ Expected<void> CheckpointFile::Finish(const PartEnd& end) {
 
 Expected<void> CheckpointFile::Remove() { return log_->Remove(); }
 
+std::string TextDigest(const std::string& text) {
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(text.data());
+  return fmt::format("{:08x}-{}", ::crc32_z(0, bytes, text.size()), text.size());
+}
+
 Expected<std::optional<PartEnd>> ReadCheckpointEnd(const std::string& path) {
   TRY(const auto line, LastLine(path, kKind));
   if (!line || !Begins(*line, kEndBegin)) return std::nullopt;

@@ -43,6 +43,9 @@ struct PartEnd {
   std::optional<std::pair<int, std::int64_t>> last;
 };
 
+// Digest of a text among the options of a run: CRC-32 and size.
+std::string TextDigest(const std::string& text);
+
 // The last line of a complete checkpoint file; empty if the run is unfinished.
 Expected<std::optional<PartEnd>> ReadCheckpointEnd(const std::string& path);
 

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "lyrefit/batch/batch_task.h"
-#include "lyrefit/batch/row_cause.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/documents.h"
@@ -17,8 +16,10 @@ std::vector<ResultColumn> DiagnoseColumns() {
   constexpr CellType kNumber = CellType::kNumber;
   return {
       {"cause", "", kText,
-       "what the model gets wrong, the most certain: its id; else the first of device_findings; "
-       "empty: nothing"},
+       "what the model gets wrong, a fault of the device before one of the measurement: its id; "
+       "else "
+       "the first of device_findings, which also goes before single wrong readings; empty: "
+       "nothing"},
       {"cause_title", "", kText, "the same in a few words"},
       {"cause_about", "", kText,
        "what it belongs to: device; or a measurement to be repeated: sweep, instrument, "
@@ -61,7 +62,7 @@ std::vector<std::string> Ids(const std::vector<Cause>& causes) {
 
 std::vector<ResultCell> DiagnoseCells(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
-  const Cause cause = RowCause(diagnosis);
+  const Cause cause = MainCause(diagnosis);
   std::vector<std::string> findings;
   for (const DeviceFinding& finding : diagnosis.device_findings) findings.push_back(finding.id);
   return {TextCell(cause.id),

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "lyrefit/batch/batch_task.h"
-#include "lyrefit/batch/row_cause.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/translate/translate.h"
@@ -53,8 +52,10 @@ std::vector<ResultColumn> FieldColumns() {
            {"conditions_not_met", "", kText, "those that are not, with '; ' between them"},
            {"conditions_not_known", "", kText, "those of which nothing is known"},
            {"cause", "", kText,
-            "what is wrong with the curve, the most certain: its id; else leak, ideality, "
-            "low_ideality or series_resistance, if that lies out of the range of healthy devices"},
+            "what is wrong with the curve, a fault of the device before one of the measurement: "
+            "its id; "
+            "leak, ideality, low_ideality, series_resistance or fill_factor where that lies out of "
+            "the range of healthy devices"},
            {"cause_about", "", kText,
             "what that cause belongs to: device; or a measurement to be repeated: sweep, "
             "instrument, "
@@ -64,6 +65,7 @@ std::vector<ResultColumn> FieldColumns() {
            {"equivalents", "", kText, "ids that these readings cannot tell from it"},
            {"separate_by", "", kText, "measurements that would, with '; ' between them"},
            {"action", "", kText, "the next thing to do about it"},
+           {"probability", "", kNumber, "that this cause, and no other, is there"},
            {"recoverable_power_W", "W", kNumber,
             "what the string would give more without the cause, in the light of the sweep; empty "
             "where only a lower limit is known"},
@@ -108,7 +110,7 @@ std::vector<ResultCell> FieldCells(const TranslationReport& report) {
   cells.emplace_back(std::int64_t{report.checklist.met});
   cells.push_back(ListCell(Titles(report.checklist, Condition::kNotMet), "; "));
   cells.push_back(ListCell(Titles(report.checklist, Condition::kNotKnown), "; "));
-  const Cause cause = report.diagnosis ? RowCause(*report.diagnosis) : Cause();
+  const Cause cause = report.diagnosis ? MainCause(*report.diagnosis) : Cause();
   cells.push_back(TextCell(cause.id));
   cells.push_back(TextCell(cause.group));
   cells.push_back(TextCell(cause.title));
@@ -116,6 +118,7 @@ std::vector<ResultCell> FieldCells(const TranslationReport& report) {
   cells.push_back(ListCell(cause.equivalents));
   cells.push_back(ListCell(cause.separate_by, "; "));
   cells.push_back(TextCell(cause.action));
+  cells.push_back(NumberCell(cause.probability));
   cells.push_back(NumberCell(cause.recoverable_power_W.value));
   cells.push_back(NumberCell(cause.recoverable_power_W.low_95));
   cells.push_back(NumberCell(cause.recoverable_power_W.high_95));

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/batch/neighbours.h"
+#include "lyrefit/batch/addition.h"
 #include "lyrefit/diagnose/reference.h"
 
 namespace lyrefit {

@@ -160,7 +160,7 @@ Expected<BatchSummary> MergeShards(const std::vector<std::string>& folders,
   TRY(const Shards shards, FindShards(folders));
   TRY(CheckAllThere(shards));
   TRY(CheckOneRun(shards));
-  TRY(PrepareFolder(options.folder, options.replace));
+  TRY(PrepareFolder(options.folder, options.replace, options.additions));
   std::vector<std::string> paths;
   for (const auto& [k, path] : shards.paths) paths.push_back(path);
   TRY(const CheckpointReader reader, CheckpointReader::Open(paths.front()));
@@ -170,7 +170,7 @@ Expected<BatchSummary> MergeShards(const std::vector<std::string>& folders,
   summary.folder = options.folder;
   summary.seed = reader.head().at("options").value("seed", std::uint64_t{0});
   for (const std::string& path : paths) TRY(BringStringPages(path, options.folder));
-  TRY(auto results, WriteResults(paths, options.folder, {}, row_observer));
+  TRY(auto results, WriteResults(paths, options.folder, options.additions, {}, row_observer));
   static_cast<BatchResults&>(summary) = std::move(*results);  // nobody stops it
   summary.seconds = SecondsSince(begin);
   return summary;

@@ -52,6 +52,9 @@ BrightestSweeps BrightestSweepsOf(const CellReport& report);
 // Judges the pixel. `all_dark`: the input states of every curve that it was measured in the dark.
 JudgedPixel JudgePixel(const CellReport& report, bool all_dark, const PixelOptions& options);
 
+// Name of the criterion among the options of a run.
+inline constexpr char kPixelCriterion[] = "working-pixel";
+
 // The criterion as a sentence, for summaries.
 std::string PixelCriterion(const PixelOptions& options);
 

@@ -11,13 +11,15 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/checkpoint.h"
+#include "lyrefit/report/page.h"
 
 namespace lyrefit {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestName = 120;   // bytes of a level; file systems allow slightly more
+constexpr std::size_t kLongestName = 120;  // bytes of a level; file systems allow slightly more
+constexpr std::uintmax_t kLargestPage = 256U << 20;
 constexpr std::size_t kLongestPath = 1000;  // bytes of all levels
 
 bool IsCapital(char c) { return c >= 'A' && c <= 'Z'; }
@@ -89,6 +91,13 @@ Expected<void> WriteStringPage(const std::string& folder, const std::string& pat
   fs::create_directories(file.parent_path(), error);
   if (error) return Fail("cannot make the folder of a page: " + error.message(), file.string());
   return WriteTextFile(file.string(), html);
+}
+
+Expected<void> AddToStringPage(const std::string& folder, const std::string& path,
+                               const std::vector<std::string>& lines, const std::string& own) {
+  const std::string file = (fs::path(folder) / path).string();
+  TRY(const std::string page, ReadTextFile(file, kLargestPage));
+  return WriteTextFile(file, WithVerdictAhead(page, lines, own));
 }
 
 Expected<void> BringStringPages(const std::string& part, const std::string& folder) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
@@ -35,6 +36,11 @@ std::string StringPagePath(const std::string& id);
 // Writes the page, completely or not at all, and creates its folders. Thread-safe.
 Expected<void> WriteStringPage(const std::string& folder, const std::string& path,
                                const std::string& html);
+
+// The page that was written, with `lines` at the head of its verdict, in place of those of an
+// earlier call; `own` stands above the lines of the page itself. Errors: a missing page.
+Expected<void> AddToStringPage(const std::string& folder, const std::string& path,
+                               const std::vector<std::string>& lines, const std::string& own);
 
 // Copies the pages named by the rows of the checkpoint file `part` from its folder into `folder`.
 // Files on one disk are hard links, else copies. Errors: a missing page.

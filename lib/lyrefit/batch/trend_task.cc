@@ -9,7 +9,7 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/batch_task.h"
-#include "lyrefit/batch/campaign_results.h"
+#include "lyrefit/batch/checkpoint.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -237,7 +237,7 @@ BatchTaskType TrendTask(const TrendReadOptions& reading, const TrendOptions& ask
   task.columns = TrendColumns();
   task.options = NonDefaults(options, kTrendOptionTable);
   if (own.law) {
-    task.options.push_back({"law", own.law->law + ", " + EarlierDigest(LawText(*own.law)), ""});
+    task.options.push_back({"law", own.law->law + ", " + TextDigest(LawText(*own.law)), ""});
   }
   task.run = [own, options](const BatchCurve& device, std::uint64_t seed,
                             const Observer& observer) {

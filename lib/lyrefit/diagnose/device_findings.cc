@@ -115,6 +115,14 @@ Sized About(double value, double half) {
   return {value, std::max(value - half, 0.0), value + half};
 }
 
+// Watts of a part of Pmax that the device lacks against another with the limit of a parameter. Within
+// the interval of the parameter they go with its distance from the limit.
+Sized Watts(const JudgedDevice& device, double loss, const Sized& value, double limit) {
+  const double watts = DevicePower(device.weighted, device.fit) * loss / (1 - loss);
+  const auto at = [&](double other) { return watts * (other - limit) / (value.value - limit); };
+  return {watts, at(value.low_95), at(value.high_95)};
+}
+
 bool IsAbove(const Sized& value, double limit) { return value.low_95 > limit; }
 
 // "twice what modules do (at most 1.6 %)"
@@ -153,7 +161,8 @@ void AddLeak(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
        fmt::format("leaks {:.1f} % ({:.1f} to {:.1f}) of Isc at Voc, {}{}; {}", 100 * leak.value,
                    100 * leak.low_95, 100 * leak.high_95,
                    Exceeding(device, value / limit, "do", fmt::format("{:.2g} %", 100 * limit)),
-                   LossText(loss), causes)});
+                   LossText(loss), causes),
+       false, Watts(device, loss, leak, limit)});
 }
 
 double CellVoltage(const JudgedDevice& device) {
@@ -189,7 +198,7 @@ void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* finding
              n.value, n.low_95, n.high_95, CellVoltage(device),
              Exceeding(device, 1, "have", fmt::format("{:.3g}", limit)), LossText(loss),
              FindTechnology("CIGS")->most_ideality),
-         true});
+         true, Watts(device, loss, n, limit)});
     return;
   }
   // Recombination in a junction ends at n = 2.
@@ -203,7 +212,8 @@ void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* finding
       {"ideality", "n", n, limit, loss,
        fmt::format("has n = {:.2f} ({:.2f} to {:.2f}), {}{}; {}", n.value, n.low_95, n.high_95,
                    Exceeding(device, 1, "have", fmt::format("{:.3g}", limit)), LossText(loss),
-                   causes)});
+                   causes),
+       false, Watts(device, loss, n, limit)});
 }
 
 void AddLowIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
@@ -215,7 +225,8 @@ void AddLowIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* find
       {"ideality", "n", n, 1, kUnknown,
        fmt::format("has n = {:.2f} ({:.2f} to {:.2f}), less than any junction has; the number of "
                    "cells or the temperature is not as stated, or the model lacks a cause",
-                   n.value, n.low_95, n.high_95)});
+                   n.value, n.low_95, n.high_95),
+       false, Sized()});
 }
 
 void AddSeriesResistance(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
@@ -234,7 +245,8 @@ void AddSeriesResistance(const JudgedDevice& device, std::vector<DeviceFinding>*
            LossText(loss),
            device.of == DeviceClass::kSiliconModule
                ? "corroded contacts, a broken ribbon, connectors or long leads"
-               : "contacts, a resistive layer or leads")});
+               : "contacts, a resistive layer or leads"),
+       false, Watts(device, loss, drop, limit)});
 }
 
 }  // namespace
@@ -314,7 +326,84 @@ void AddFillFactor(const std::optional<FillFactor>& fill_factor, const std::vect
            "trace or a dark curve tells them apart",
            fill.value.value, fill.usual, fill.least, 100 * fill.lost.value, 100 * fill.lost.low_95,
            100 * fill.lost.high_95),
-       fill.if_silicon});
+       fill.if_silicon, fill.lost_W});
+}
+
+namespace {
+
+// What is said of a parameter out of range beside its sentence.
+struct FindingWords {
+  const char* finding;
+  bool low;  // below its limit rather than above
+  const char* id;
+  const char* title;
+  const char* about;
+  const char* action;
+  const char* separate_by;
+};
+
+constexpr FindingWords kFindingWords[] = {
+    {"fill_factor", true, "fill_factor", "fill factor below that of healthy devices", "device",
+     "measure before any work: a Suns-Voc trace or a dark curve tells which part of the device "
+     "loses "
+     "it",
+     "a Suns-Voc trace or a dark curve"},
+    {"leak", false, "leak", "leak above that of healthy devices", "device",
+     "look for dark modules or cells in an electroluminescence image; test the insulation and the "
+     "earthing, since potential-induced degradation can be reversed; exchange what is shunted",
+     "an electroluminescence image, or a sweep at low light, where leaks take most of the voltage"},
+    {"ideality", false, "ideality", "ideality above that of healthy devices", "device",
+     "take the curve again with the temperature of the cells measured, and compare it with a sound "
+     "module of the same type",
+     "a second sweep at another light with the temperature of the cells measured"},
+    {"ideality", true, "low_ideality", "ideality below that of any junction", "conditions",
+     "check the stated number of cells and the sensor of the temperature; take the curve again",
+     "the number of cells on the label, and a second thermometer"},
+    {"series_resistance", false, "series_resistance",
+     "series resistance above that of healthy devices", "device",
+     "look for hot connectors, clamps and ribbons in a thermal picture under load; renew them",
+     "a Suns-Voc trace, or the voltage drop along leads and connectors under load"},
+};
+
+}  // namespace
+
+Cause CauseOf(const DeviceFinding& finding) {
+  Cause cause;
+  const bool low = finding.value.value < finding.healthy_limit;
+  for (const FindingWords& words : kFindingWords) {
+    if (words.finding != finding.id || words.low != low) continue;
+    cause.id = words.id;
+    cause.title = words.title;
+    cause.group = words.about;
+    cause.action = words.action;
+    cause.separate_by = {words.separate_by};
+  }
+  cause.sentence = "it " + finding.sentence;
+  cause.power_effect.value = finding.power_loss;
+  cause.recoverable_power_W = finding.recoverable_power_W;
+  return cause;
+}
+
+Cause MainCause(const Diagnosis& diagnosis) {
+  const auto about = [](const Cause& cause) {
+    const Effect* const effect = FindEffect(cause.id);
+    return effect == nullptr ? std::string() : std::string(ToText(effect->where));
+  };
+  const std::vector<Cause>& causes = diagnosis.verdict.causes;
+  const auto of_device = std::find_if(causes.begin(), causes.end(), [&](const Cause& cause) {
+    return about(cause) == ToText(Where::kDevice);
+  });
+  // What the instrument does to single readings leaves the parameters what they are.
+  const bool undisturbed = std::all_of(causes.begin(), causes.end(), [&](const Cause& cause) {
+    return about(cause) == ToText(Where::kInstrument);
+  });
+  if (of_device == causes.end() && undisturbed && !diagnosis.device_findings.empty()) {
+    return CauseOf(diagnosis.device_findings.front());
+  }
+  if (causes.empty()) return Cause();
+  Cause cause = of_device == causes.end() ? causes.front() : *of_device;
+  cause.group = about(cause);
+  return cause;
 }
 
 }  // namespace lyrefit

@@ -20,7 +20,6 @@
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/device_findings.h"
 #include "lyrefit/diagnose/evidence.h"
-#include "lyrefit/diagnose/experiment_design.h"
 #include "lyrefit/diagnose/extended_report.h"
 #include "lyrefit/diagnose/fill_factor.h"
 #include "lyrefit/diagnose/held_out.h"
@@ -422,9 +421,6 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   }
   Diagnosis diagnosis = Describe(prepared, selected);
   AddKind(taken, &diagnosis.evidence);
-  if (options.plan && !progress.Stopped()) {
-    diagnosis.plan = MakePlan(found, options.seed, options.threads);
-  }
   if (progress.Stopped()) MarkInterrupted(&diagnosis);
   diagnosis.extended =
       ExtendedReport(prepared.set, found, selected.at, options.extend && !diagnosis.interrupted,

@@ -42,7 +42,6 @@ struct DiagnoseOptions {
   int largest_causes = 4;  // largest number of named causes
   bool held_out = true;    // measure the gain on readings that were not fitted
   int folds = 10;
-  bool plan = false;    // simulate measurements that separate the first cause from its equivalents
   bool extend = false;  // search and polish the extended model as a FitReport
   int threads = 0;
 };
@@ -94,8 +93,7 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionTable[] = {
      EnumOption<&DiagnoseOptions::setup>(), OptionTrait::kNone, ": as the file says"},
     {"age", "YEARS", "of the device in the field: some causes are of old devices",
      &DiagnoseOptions::age_years, 0, 100},
-    {"seed", "", "seed of the search and of the plan", &DiagnoseOptions::seed, 0,
-     1.8446744073709552e19},
+    {"seed", "", "seed of the search", &DiagnoseOptions::seed, 0, 1.8446744073709552e19},
     {"floor-current", "", "smallest effect that is named, in parts of Isc (rms over the curve)",
      &DiagnoseOptions::floor_current, 0, 1},
     {"floor-power", "", "smallest effect that is named, in parts of Pmax",
@@ -105,8 +103,6 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionTable[] = {
      100},
     {"held-out", "", "do not measure the gain on readings that were not fitted",
      &DiagnoseOptions::held_out},
-    {"plan", "", "simulate which further measurement tells the first cause from what looks like it",
-     &DiagnoseOptions::plan, OptionTrait::kExperimental},
     {"extend", "", "search and polish the extended model", &DiagnoseOptions::extend,
      OptionTrait::kNoFlag | OptionTrait::kNoEcho},
     {"threads", "N", "0: all cores; never changes a result", &DiagnoseOptions::threads, 0,

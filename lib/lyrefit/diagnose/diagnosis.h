@@ -10,7 +10,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/diagnose/plan.h"
+#include "lyrefit/effects/fitted_effect.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
 
@@ -70,17 +70,6 @@ struct Evidence {
   std::vector<Finding> findings;
 };
 
-// A fitted parameter of an effect.
-struct CauseParameter {
-  std::string symbol;
-  std::string name;  // name in code and JSON
-  std::string unit;
-  double value = kUnknown;  // in `unit`
-  double low_95 = kUnknown;
-  double high_95 = kUnknown;
-  bool at_bound = false;
-};
-
 // Result of trying one effect of the catalogue.
 struct Trial {
   std::string effect;  // its id
@@ -97,13 +86,6 @@ struct Trial {
   double held_out_rmse_A = kUnknown;
   double kept = kUnknown;  // fraction of the effect's signature that the base model cannot absorb
   std::vector<CauseParameter> parameters;  // fitted together with the base model
-};
-
-// A size with its 95 % interval.
-struct Sized {
-  double value = kUnknown;  // in the unit of the field
-  double low_95 = kUnknown;
-  double high_95 = kUnknown;
 };
 
 // A hypothesis that could stand in the place of a cause.
@@ -160,6 +142,7 @@ struct DeviceFinding {
   double power_loss = kUnknown;     // part of Pmax that the healthy limit would give more
   std::string sentence;             // without its subject: "leaks 3.1 % ..."
   bool if_silicon = false;          // within range of other technologies; nobody stated which it is
+  Sized recoverable_power_W;        // additional Pmax of the device with the healthy limit
 };
 
 // What a module loses of its fill factor to series resistance.
@@ -259,7 +242,6 @@ struct Diagnosis {
   Verdict verdict;                             // conclusion
   std::vector<DeviceFinding> device_findings;  // parameters of the device that are out of range
   Gain gain;                                   // improvement by the causes
-  std::optional<Plan> plan;                    // if requested
   // The extended model (the base model if nothing was found) as a FitReport. With
   // DiagnoseOptions::extend it is searched and polished. Otherwise only `model`, `estimates`,
   // `causes`, `curves`, `usable`, `nNsVth` and the refined RMSE are filled, and `device` is empty:
@@ -272,5 +254,15 @@ struct Diagnosis {
   double seconds = 0;
   bool interrupted = false;
 };
+
+// A parameter out of range as a cause: with id, title, sentence, group ("device"; "conditions" of an ideality
+// below that of any junction, whose id is then "low_ideality"), action and what would separate it.
+Cause CauseOf(const DeviceFinding& finding);
+
+// The one cause that a row, a summary or a page of many curves names: the first of the verdict that
+// belongs to the device, else of the findings, unless the light or the conditions changed, else the
+// first of the verdict. Its group is what it belongs to: "device"; "sweep", "instrument" or
+// "conditions", which call for a new measurement; or "unknown". An empty id: neither.
+Cause MainCause(const Diagnosis& diagnosis);
 
 }  // namespace lyrefit

@@ -308,37 +308,9 @@ Section WholeSection(const Diagnosis& diagnosis) {
              : finding.if_silicon ? "if silicon"
                                   : "out of range",
              "it " + finding.sentence, &section);
+    AddIfAny("to do", CauseOf(finding).action, &section);
   }
   if (verdict.found) AddIfAny("not shown", verdict.not_shown, &section);
-  return section;
-}
-
-// The next measurements that would separate the causes.
-Section PlanSection(const Diagnosis& diagnosis) {
-  Section section = {"What would tell them apart"};
-  if (!diagnosis.plan) return section;
-  const Plan& plan = *diagnosis.plan;
-  AddSentence(FullSentence(plan.sentence), &section);
-  if (plan.measurements.empty()) return section;
-  AddField("between", fmt::format("{}", fmt::join(plan.causes, ", ")), &section);
-  block::Table table = {"lr" + std::string(plan.causes.size(), 'r'),
-                        {{"right name, together with these data", "mean"}}};
-  for (const std::string& id : plan.causes) table.heads[0].push_back("if " + id);
-  std::vector<std::string> how;
-  for (const PlannedMeasurement& measurement : plan.measurements) {
-    std::vector<std::string> row = {measurement.id, WholePercent(measurement.probability)};
-    for (const PlannedCause& cause : measurement.causes) {
-      row.push_back(WholePercent(cause.probability));
-    }
-    table.rows.push_back(std::move(row));
-    how.push_back(fmt::format("{}: {}; {}.", measurement.id, measurement.title, measurement.taken));
-  }
-  AddTable(std::move(table), &section);
-  AddList(std::move(how), &section);
-  AddSentence(
-      "Simulated: each cause in turn is the true one, the readings it would give are drawn, and "
-      "all causes are fitted to old and new readings.",
-      &section);
   return section;
 }
 
@@ -469,9 +441,7 @@ Document DiagnosisDocument(const Diagnosis& diagnosis) {
   AddSections({{"Verdict", {block::Sentence{FullSentence(diagnosis.verdict.sentence)}}}},
               &document);
   AddSections(CauseSections(diagnosis), &document);
-  AddSections(
-      {WholeSection(diagnosis), PlanSection(diagnosis), WarningSection(OtherWarnings(diagnosis))},
-      &document);
+  AddSections({WholeSection(diagnosis), WarningSection(OtherWarnings(diagnosis))}, &document);
   AddSections(DetailSections(diagnosis), &document);
   AddSections(BelowSections(diagnosis), &document);
   AddSections({Folded(found ? GainSection(gain) : BaseGainSection(gain)),

@@ -166,18 +166,6 @@ PowerGain GainTo(const WeightedData& weighted, const LawFit& fit, const DeviceTe
 
 }  // namespace
 
-Readings InBrightestLight(const Readings& measured) {
-  Reading at = measured.points.front();
-  for (const Reading& r : measured.points) {
-    if (r.irradiance > at.irradiance) at = r;
-  }
-  at.x = at.rate = 0;
-  at.current = at.irradiance > 0 ? 1 : 0;
-  Readings bare = measured;
-  bare.points = {at};
-  return bare;
-}
-
 double DevicePower(const WeightedData& weighted, const LawFit& fit) {
   return InWatts(weighted,
                  FindPowerPoint(InBrightestLight(*weighted.readings), DeviceTermsOf(fit)));

@@ -15,9 +15,6 @@ struct Floors {
   bool Any() const { return current > 0 || power > 0; }
 };
 
-// The measurement with one reading, whose conditions are those of the brightest light.
-Readings InBrightestLight(const Readings& measured);
-
 // Maximum power of the device alone, in W: base and device effects at the conditions of the
 // brightest lit curve, without effects of the sweep and of instruments. NaN if the law cannot be
 // evaluated.

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "lyrefit/diagnose/decision_constants.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 
@@ -34,7 +35,7 @@ LogEvidence EvidenceOf(const WeightedData& weighted, const LawFit& base,
 }
 
 double LogPriorOdds(const Effect& effect, const JudgeOptions& options) {
-  const double prior = options.priors.Of(effect.id, options.module);
+  const double prior = options.priors.Of(effect, options.module);
   return std::log(prior / (1 - prior));
 }
 
@@ -106,15 +107,17 @@ double PartOfSlight(const FittedCandidate& candidate, const DataTraits& traits,
       })) {
     return 0;
   }
-  const auto odds_of = [&](const char* id) {
-    const double prior = options.priors.Of(id, options.module);
+  const Effect* const slight = FindEffect(effect.slight_is);
+  if (slight == nullptr) return 0;
+  const auto odds_of = [&](const Effect& one) {
+    const double prior = options.priors.Of(one, options.module);
     return prior / (1 - prior);
   };
   const double missing = effect.light_missing(fit.p.data() + ParametersAt(fit.law, effect), traits);
   if (!std::isfinite(missing)) return 0;
   const double z = missing / kUsualDimmest;
   const double density = 12 * std::sqrt(3.0) / M_PI / kUsualDimmest / std::pow(3 + z * z, 2);
-  const double odds = odds_of(effect.slight_is) / odds_of(effect.id) * density;
+  const double odds = odds_of(*slight) / odds_of(effect) * density;
   return odds / (1 + odds);
 }
 

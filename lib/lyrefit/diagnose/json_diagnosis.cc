@@ -109,6 +109,12 @@ void to_json(Json& j, const DeviceFinding& finding) {
        {"healthy_limit", finding.healthy_limit},
        {"power_loss", finding.power_loss},
        {"sentence", finding.sentence}};
+  const Cause cause = CauseOf(finding);
+  j["title"] = cause.title;
+  j["about"] = cause.group;
+  j["action"] = cause.action;
+  j["separate_by"] = cause.separate_by;
+  j["recoverable_power_W"] = finding.recoverable_power_W;
 }
 
 void to_json(Json& j, const ParameterShift& shift) {
@@ -130,21 +136,6 @@ void to_json(Json& j, const Gain& gain) {
        {"sentence", gain.sentence},
        {"parameter_shift", gain.shifts}};
 }
-
-void to_json(Json& j, const PlannedMeasurement& measurement) {
-  j = {{"id", measurement.id},
-       {"title", measurement.title},
-       {"taken", measurement.taken},
-       {"probability", measurement.probability},
-       {"causes", Json::object()}};
-  for (const PlannedCause& cause : measurement.causes) {
-    j["causes"][cause.id] = {{"probability", cause.probability},
-                             {"separation", cause.separation},
-                             {"nearest", cause.nearest}};
-  }
-}
-
-LYREFIT_JSON_FIELDS(Plan, causes, sentence, measurements)
 
 void to_json(Json& j, const JudgedSetup& setup) {
   j = {{"name", ToText(setup.setup)}, {"from", setup.from}, {"source", setup.source}};
@@ -195,7 +186,6 @@ void to_json(Json& j, const Diagnosis& diagnosis) {
        {"verdict", diagnosis.verdict},
        {"device_findings", diagnosis.device_findings},
        {"gain", diagnosis.gain}};
-  if (diagnosis.plan) j["plan"] = *diagnosis.plan;
   j["evidence"] = diagnosis.evidence;
   j["trials"] = diagnosis.trials;
   j["non_default_options"] = diagnosis.non_default_options;

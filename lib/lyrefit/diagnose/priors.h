@@ -11,20 +11,9 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/model/effect.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
-
-// How often a cause is in a sweep at a size that matters, and on what the number rests.
-struct CausePrior {
-  const char* id;      // of the effect
-  double in_cells;     // probability that it is in a sweep of a cell
-  double in_modules;   // ... of a module
-  const char* source;  // on what the numbers rest
-};
-
-// The table for sweeps of the field. Orders of magnitude: the evidence of a fault above the floors
-// is usually larger by far, so that a factor of three changes few verdicts.
-const std::vector<CausePrior>& PriorTable();
 
 // What is known of a measurement beside its readings that makes causes more or less common.
 struct Circumstances {
@@ -35,16 +24,18 @@ struct Circumstances {
   std::optional<double> age_years = {};  // of the device in the field
 };
 
-// A change of a number of the table where more is known than that a sweep was taken in the field.
+// A change of an effect's prior (Effect::prior) where more is known than that a sweep was taken in the
+// field.
 struct PriorFactor {
   const char* id;                             // of the effect
   bool (*holds)(const Circumstances& where);  // where it counts
-  double factor;                              // of the table's number; 0: the cause cannot be there
+  double factor;                              // of its prior; 0: the cause cannot be there
   const char* source;                         // on what it rests; of 0 why not, said in reports
 };
 
-// The changes; those that hold at once multiply. As the table's numbers they are orders of magnitude:
-// their sources order causes, and do not count sweeps.
+// The changes; those that hold at once multiply. As the priors they are orders of magnitude: their
+// sources order causes, and do not count sweeps. The evidence of a fault above the floors is usually
+// larger by far, so that a factor of three changes few verdicts.
 const std::vector<PriorFactor>& PriorFactorTable();
 
 // Why a cause cannot be there in these circumstances; null: it can.
@@ -52,17 +43,17 @@ const char* WhyNotThere(const std::string& id, const Circumstances& where);
 
 // Prior probabilities of causes.
 struct CausePriors {
-  std::map<std::string, double> given;  // replace those of the table
-  bool alike = false;                   // no table: all other causes are equally probable
+  std::map<std::string, double> given;  // by id, replace those of the effects
+  bool alike = false;                   // all other causes are equally probable
   std::string name = "table";           // "table", "alike" or the name of the file
   Circumstances where = {};             // of the measurement; Diagnose fills it
 
   // Of an effect in sweeps of modules or of cells. What cannot be there counts as elsewhere, for one
   // who asks for it by name.
-  double Of(const std::string& id, bool module) const;
+  double Of(const Effect& effect, bool module) const;
 };
 
-// Of a cause that is in no table, such as an effect of one's own, and of all with `alike`.
+// Of a cause without a prior, such as an effect of one's own, and of all with `alike`.
 inline constexpr double kOtherPrior = 0.03;
 // That something acts which no effect of the catalogue describes.
 inline constexpr double kUnknownPrior = 0.003;
@@ -70,7 +61,7 @@ inline constexpr double kUnknownPrior = 0.003;
 inline constexpr double kWrongReadingPrior = 0.05;
 
 // Reads a file like {"shading": 0.1, "second_diode": 0.01}, whose values replace those of the
-// table. Errors, with file, line and column: an id that is no effect, a number outside (0, 1).
+// effects. Errors, with file, line and column: an id that is no effect, a number outside (0, 1).
 Expected<CausePriors> ReadPriors(const std::string& path);
 
 // Priors by name ("table" or "alike"), or from a file of ReadPriors().

@@ -24,6 +24,7 @@ Effect AgedContacts() {
   e.action =
       "look for dark fingers and ribbons in an electroluminescence image, and at the ribbons for "
       "corrosion; nothing repairs it, and it grows";
+  e.prior = {0.001, 0.01, kFaultPrior};
   e.parameters = {Parameter("Rc", "contact_resistance",
                             "of the aged part beside Rs, as if the whole device were behind it")
                       .Unit("ohm")

@@ -59,6 +59,7 @@ Effect BackContact() {
   e.confused_with = {"rs_current", "transient"};
   e.separate_by = "points further beyond open circuit, or another irradiance";
   e.action = "sweep further beyond open circuit: it belongs to the cells, and nothing repairs it";
+  e.prior = {0.02, 0.01, kCellPrior};
   e.parameters = BarrierParameters();
   e.series = [](const auto* p, const auto& cell, const auto& current) {
     constexpr double kLeast = 3e-3;  // leak of a barrier in Ib / (nb Vt): a finite slope

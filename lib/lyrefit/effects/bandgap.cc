@@ -1,5 +1,6 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -16,6 +17,9 @@ Effect Bandgap() {
   e.confused_with = {"temp_offset", "voltage_offset", "temp_gradient"};
   e.separate_by = "a second thermometer on the cell; four temperatures or more";
   e.action = "check the technology and the thermometer";
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {SignedSize(of.Of("c"), "eV", "more", "less") + " than stated"};
+  };
   e.parameters = {
       Parameter("c", "bandgap_error", "true minus stated").Unit("eV").Between(-0.5, 0.5)};
   e.conditions = [](const auto* p, const auto&, auto* conditions) {

@@ -19,6 +19,7 @@ Effect Breakdown() {
   e.separate_by = "reverse bias closer to breakdown, or another irradiance";
   e.action = "look at the module with a thermal camera while one cell is shaded";
   e.fact_sheet = "PVFS 1-19";
+  e.prior = {0.02, 0.005, kCellPrior};
   // Internal units: current at the most negative reading, and that voltage as a fraction of Vbr.
   e.parameters = {
       Parameter("a", "breakdown_factor", "conductance of a cell at 0 V")

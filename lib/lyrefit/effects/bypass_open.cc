@@ -1,10 +1,12 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 namespace {
@@ -74,6 +76,11 @@ Effect BypassOpen() {
   e.action = "open the junction box and test the bypass diodes";
   e.fact_sheet = "PVFS 1-15";
   e.is_wiring = true;
+  e.prior = {0.003, 0.006, kFaultPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {fmt::format("{} under {} of the others' light, and no bypass diode leads around it",
+                        PartOfCells(of.readings, of.p[1]), LightLeft(of.p[0], of.Of("d")))};
+  };
   e.parameters = {
       Parameter("d", "light_deficit",
                 "part of the light that the substring misses, because of its dim cells")
@@ -102,9 +109,6 @@ Effect BypassOpen() {
   };
   e.cell = [](const auto* p, auto* cell) { SetBypassOpen(p, cell); };
   e.groups = true;
-  e.covered = [](double* p, int which, int groups) {
-    return p[kOpenCells] > 0 ? GoneWithTheFirst(p, which, groups) : SecondIsShare(p, which, groups);
-  };
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

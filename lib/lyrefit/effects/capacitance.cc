@@ -22,6 +22,7 @@ Effect Capacitance() {
   e.separate_by =
       "two sweep speeds: this current is in proportion to the speed; a turn at another voltage";
   e.action = "repeat the sweep five times slower";
+  e.prior = {0.03, 0.03, kTracerPrior};
   e.parameters = {
       Parameter("C0", "capacitance", "of the whole device")
           .Unit("F")

@@ -3,6 +3,7 @@
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -21,6 +22,15 @@ Effect Clip() {
   e.confused_with = {"transient", "collection"};
   e.separate_by = "repeat with a larger range or compliance";
   e.action = "repeat the sweep with a larger range or compliance";
+  e.prior = {0.002, 0.002, kTracerPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    Phrases words;
+    const Sized most = of.Of("Ic"), least = of.Of("Il");
+    const double scale = of.readings.scale.current_A;
+    if (most.value < 1.4 * scale) words.push_back("no current above " + AmpereText(most.value));
+    if (least.value > -10 * scale) words.push_back("no current below " + AmpereText(least.value));
+    return words;
+  };
   e.parameters = {
       Parameter("Ic", "limit", "largest current that is recorded")
           .Unit("A")

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -23,6 +26,11 @@ Effect CloudEdge() {
       "repeat the sweep: a cloud does not come back at the same voltage; a reference cell beside "
       "the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
+  e.prior = {0.001, 0.005, kSkyPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {fmt::format("near {:.4g} V the light went over to another level: it {}",
+                        VoltageAtMoment(of), LightChange(of.Of("s"), of.Most(0), " than before"))};
+  };
   e.parameters = {
       Parameter("s", "relative_change", "by how much the light changed")
           .Between(-0.8, 0.8)

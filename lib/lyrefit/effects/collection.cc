@@ -17,6 +17,7 @@ Effect Collection() {
   e.separate_by = "a dark curve (this part scales with light) or a wide range of irradiance";
   e.action =
       "take a dark curve or a second irradiance: it belongs to the cells, and nothing repairs it";
+  e.prior = {0.02, 0.005, kCellPrior};
   e.parameters = {Parameter("chi", "d2mutau", "loss parameter of a cell")
                       .Unit("V")
                       .Between(0, 0.3)

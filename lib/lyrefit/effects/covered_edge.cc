@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 #include "lyrefit/effects/unlike_substrings.h"
 
 namespace lyrefit {
@@ -43,14 +46,6 @@ void SetCoveredEdge(const S* p, Cell<S>* cell) {
   cell->reverse = ReverseLaw::kSoft;
   cell->reverse_voltage = p[kEdgeSoft];
   cell->reverse_exponent = S(kEdgeExponent);
-}
-
-// Without substring `which`, those after it move up.
-bool CoveredEdgeLeft(double* p, int which, int groups) {
-  for (int k = which; k + 1 < std::min(groups, kMostEdges); ++k) {
-    std::copy(p + 2 * k + 2, p + 2 * k + 4, p + 2 * k);
-  }
-  return true;
 }
 
 // Substrings, the brightest first: share of the cells and position among the parameters.
@@ -159,6 +154,18 @@ std::vector<EffectParameter> CoveredEdgeParameters() {
   return parameters;
 }
 
+Phrases CoveredEdgeInWords(const FittedEffect& of) {
+  Phrases words;
+  const int substrings = std::clamp(SubstringsOf(of.readings.traits), 2, kMostEdges);
+  words.reserve(substrings);
+  for (int k = 0; k < substrings; ++k) {
+    words.push_back(fmt::format(
+        "{:.0f} % of a substring's cells have {} of the others' {}", 100 * of.p[2 * k + 1],
+        LightLeft(of.p[2 * k], of.Of(fmt::format("d{}", k + 1))), of.light()));
+  }
+  return words;
+}
+
 }  // namespace
 
 Effect CoveredEdge() {
@@ -185,6 +192,8 @@ Effect CoveredEdge() {
   e.separate_by = "clean the module, or compare the short-circuit current with the light";
   e.fact_sheet = "PVFS 3-3";
   e.action = "look for snow, dirt or a shadow along an edge of the module and clear it";
+  e.prior = {0.08, 0.08, kShadePrior};
+  e.in_words = CoveredEdgeInWords;
   e.parameters = CoveredEdgeParameters();
   e.cell = [](const auto* p, auto* cell) { SetCoveredEdge(p, cell); };
   e.groups = true;
@@ -194,7 +203,6 @@ Effect CoveredEdge() {
     return missing;
   };
   e.slight_is = "scatter";
-  e.covered = CoveredEdgeLeft;
   e.starts = [](const CurveShape& shape, const DataTraits& traits, const auto&) {
     return CoveredEdgeStarts(shape, traits);
   };

@@ -1,5 +1,6 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -16,6 +17,11 @@ Effect CurrentOffset() {
   e.confused_with = {"sensor_offset", "voltage_offset"};
   e.separate_by = "a reading with open leads; a dark curve; the sensor covered";
   e.action = "zero the current with open leads and measure again";
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {"the instrument reads " +
+            SignedSize(Scaled(of.Of("c"), 100 / of.readings.scale.current_A), "% of Isc",
+                       "too much", "too little")};
+  };
   e.parameters = {Parameter("c", "current_offset", "what the instrument adds")
                       .Unit("A")
                       .Between(-0.1, 0.1)

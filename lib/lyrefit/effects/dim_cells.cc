@@ -1,11 +1,13 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/dim_places.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 namespace {
@@ -133,6 +135,17 @@ std::vector<EffectParameter> DimCellsParameters() {
   return parameters;
 }
 
+Phrases DimCellsInWords(const FittedEffect& of) {
+  const double chains = of.p[kDimChains];
+  Phrases lights;
+  for (int k = 0; k < kMostDim; ++k) {
+    const Sized deficit = of.Of(fmt::format("d{}", k + 1));
+    if (std::isfinite(deficit.value)) lights.push_back(LightLeft(deficit.value, deficit, chains));
+  }
+  return {fmt::format("{} cells have {} of the others' {}", lights.size(), fmt::join(lights, ", "),
+                      of.light())};
+}
+
 }  // namespace
 
 Effect DimCells() {
@@ -155,10 +168,11 @@ Effect DimCells() {
   e.confused_with = {"weak_cell", "substrings", "scatter"};
   e.separate_by = "cover one cell after the other, or a thermal image under load";
   e.action = "look at the module with a thermal camera: several cells are covered, dark or broken";
+  e.prior = {0.01, 0.01, kFaultPrior};
+  e.in_words = DimCellsInWords;
   e.parameters = DimCellsParameters();
   e.cell = [](const auto* p, auto* cell) { SetDimCells(p, cell); };
   e.groups = true;
-  e.covered = GoneWithTheFirst;
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     return std::vector<Probe>{{0.3, 0.15, 0, 0, 0, 1, 1, 3.2, 3.4, 0.5, 1},

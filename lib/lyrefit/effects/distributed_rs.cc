@@ -21,6 +21,7 @@ Effect DistributedRs() {
       "re-torque the connectors, or contact the cell anew, and measure again; then look for "
       "interrupted fingers in "
       "an electroluminescence image";
+  e.prior = {0.02, 0.02, kCellPrior};
   e.parameters = {Parameter("Rlat", "resistance_lateral", "between the halves of the cells")
                       .Unit("ohm")
                       .Between(0, 2)

@@ -1,5 +1,6 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -17,6 +18,11 @@ Effect Drift() {
   e.confused_with = {"temp_drift", "irr_step", "collection"};
   e.separate_by = "a sweep up and down, or a reference cell beside the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
+  e.prior = {0.01, 0.01, kSkyPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {"at the end of the sweep the light " +
+            LightChange(of.Of("d"), of.Most(0), " than at its begin")};
+  };
   e.parameters = {Parameter("d", "relative_change", "change of the light over the measurement")
                       .Between(-0.5, 0.5)
                       .AboveLower()

@@ -1,8 +1,10 @@
+#include <fmt/format.h>
+
 #include <array>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 namespace {
@@ -54,6 +56,12 @@ Effect GradedShunt() {
   e.fact_sheet = "PVFS 1-10";
   e.action =
       "measure the insulation and look at the string by night with an electroluminescence camera";
+  e.prior = {0.02, 0.02, kFaultPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {fmt::format(
+        "at 0.5 V the cells lose {:.2g} % of Isc on average, most at one end of the string",
+        100 * (0.5 * of.p[0]))};
+  };
   e.parameters = {
       Parameter("g", "mean_leak", "mean conductance of the cells beside that of the device")
           .Unit("S")

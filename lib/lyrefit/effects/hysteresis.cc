@@ -1,5 +1,11 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 namespace {
@@ -53,6 +59,25 @@ std::vector<EffectParameter> HysteresisChanges() {
   };
 }
 
+// Key points of the readings of one direction: 1 up, -1 down.
+KeyPoints InDirection(const Readings& readings, double sign) {
+  std::vector<double> voltage, current;
+  for (const Reading& reading : readings.points) {
+    if (reading.dark || !(sign * reading.rate > 0)) continue;
+    voltage.push_back(reading.voltage);
+    current.push_back(reading.current);
+  }
+  return FindKeyPoints(voltage, current);
+}
+
+Phrases HysteresisInWords(const FittedEffect& of) {
+  const double index = HysteresisIndex(InDirection(of.readings, 1), InDirection(of.readings, -1));
+  if (!std::isfinite(index)) return {};
+  return {fmt::format(
+      "index (Pmp_rev - Pmp_fwd) / Pmp_rev = {:.1f} %: {}", 100 * index,
+      index < 0 ? "inverted, the sweep up gives more" : "normal, the sweep down gives more")};
+}
+
 }  // namespace
 
 Effect Hysteresis() {
@@ -74,6 +99,8 @@ Effect Hysteresis() {
       "two sweep rates: charge and timing grow with the rate, ions have a rate at which "
       "they are largest";
   e.action = "measure the stabilised power, and both directions at a tenth of the rate";
+  e.prior = {0.1, 0.02, "28 of 44 real pairs of sweeps of thin films"};
+  e.in_words = HysteresisInWords;
   e.parameters = HysteresisChanges();
   e.cell = [](const auto* p, auto* cell) { SetDirection(p, cell); };
   e.by_sweep = true;

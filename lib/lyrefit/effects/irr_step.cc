@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -21,6 +24,15 @@ Effect IrradianceStep() {
       "repeat the sweep: a cloud does not come back at the same voltage; a reference cell beside "
       "the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
+  e.prior = {0.003, 0.02, kLampPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    for (const Reading& reading : of.readings.points) {
+      if (reading.x <= of.p[1]) continue;
+      return {fmt::format("from {:.4g} V on the light {}", VoltageAt(of, reading),
+                          LightChange(of.Of("s"), of.Most(0), " than before"))};
+    }
+    return {};
+  };
   e.parameters = {
       Parameter("s", "relative_step", "jump of the light")
           .Between(-0.8, 0.8)

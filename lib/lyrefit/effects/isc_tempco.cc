@@ -1,5 +1,6 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -16,6 +17,9 @@ Effect IscTemperatureCoefficient() {
   e.confused_with = {"sensor_nonlin"};
   e.separate_by = "a measurement of the coefficient at constant light";
   e.action = "check the temperature coefficient of Isc that was stated";
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {SignedSize(Scaled(of.Of("c"), 100), "%/K", "more", "less") + " than stated"};
+  };
   e.parameters = {Parameter("c", "tempco_error", "true minus stated, relative")
                       .Unit("1/K")
                       .Between(-0.01, 0.01)};

@@ -1,7 +1,9 @@
+#include <fmt/format.h>
+
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -20,6 +22,12 @@ Effect LeakyCell() {
   e.action =
       "look at the module with a thermal camera: the leaking cell is warmer or colder than the "
       "others";
+  e.prior = {0.01, 0.01, kFaultPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    const double* p = of.p;
+    const std::string each = p[1] > 1.5 ? fmt::format("each of {:.0f} cells", p[1]) : "the cell";
+    return {fmt::format("at 0.5 V {} loses {:.2g} % of Isc", each, 100 * (0.5 * p[0]))};
+  };
   e.parameters = {
       Parameter("g", "leak", "conductance of the cell beside that of the others")
           .Unit("S")
@@ -43,7 +51,6 @@ Effect LeakyCell() {
     cell->bypass = p[2];
   };
   e.groups = true;
-  e.covered = GoneWithTheFirst;
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;

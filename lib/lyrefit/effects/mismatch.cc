@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -16,6 +19,11 @@ Effect Mismatch() {
   e.confused_with = {"shading", "transient", "nonohmic_shunt"};
   e.separate_by = "cover one cell after the other, or an electroluminescence image";
   e.action = "take an electroluminescence image and look for the dark cells";
+  e.prior = {0.02, 0.02, kFaultPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {fmt::format("{:.3g} cells deliver {} less than the others",
+                        of.p[1] * of.readings.traits.cells, PercentWithRange(of.Of("d"), 1))};
+  };
   e.parameters = {
       Parameter("d", "current_deficit", "part of the current that the weaker cells miss")
           .Between(0, 0.9),

@@ -30,6 +30,15 @@ WhyNot NeedsLightLevels(const DataTraits& traits);   // two irradiances; a dark 
 WhyNot NeedsIrradiances(const DataTraits& traits);   // several irradiances
 WhyNot NeedsTemperatures(const DataTraits& traits);  // several temperatures
 
+// On what the priors of several effects rest (Effect::prior).
+inline constexpr char kShadePrior[] = "soiling, snow and shade: most frequent in field sweeps";
+inline constexpr char kFaultPrior[] = "IEA PVPS T13-01:2014, section 5: failures per module";
+inline constexpr char kCellPrior[] =
+    "not rare in cells; modules are sorted, seldom above the floors";
+inline constexpr char kSkyPrior[] = "moving clouds: a few in a hundred sweeps of 0.1 to 30 s";
+inline constexpr char kLampPrior[] = "clouds, seldom gone within a sweep; lamps falter less";
+inline constexpr char kTracerPrior[] = "properties of tracers, per instrument";
+
 // Probes of one parameter each.
 std::vector<Probe> Strengths(const std::vector<double>& values);
 

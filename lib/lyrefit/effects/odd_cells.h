@@ -1,8 +1,17 @@
 #pragma once
 
-#include "lyrefit/model/effect.h"
+#include "lyrefit/effects/fitted_effect.h"
 
 namespace lyrefit {
+
+// A cell in reverse bias while the terminals are shorted.
+struct HotCell {
+  double voltage_V = 0;  // below 0
+  double heat_W = 0;
+};
+
+// Of a fitted `weak_cell`, under the brightest light. Defined in weak_cell.cc.
+HotCell FindHotCell(const FittedEffect& of);
 
 constexpr EffectParameter kChains =
     Parameter("chains", "chains_side_by_side", "that share a bypass diode: two in half-cut modules")

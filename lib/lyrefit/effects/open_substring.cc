@@ -1,9 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 namespace {
@@ -76,6 +78,11 @@ Effect OpenSubstring() {
   e.separate_by =
       "a thermal image: the bypass diodes of the open substrings are hot; a shorted diode is cold";
   e.action = "open the junction box and look for a broken connection of a substring";
+  e.prior = {0.005, 0.01, kFaultPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {fmt::format("{} without current; the bypass diode drops {}",
+                        PartOfCells(of.readings, of.p[0]), WithUnit(of.Of("Vb"), "V"))};
+  };
   e.parameters = OpenSubstringParameters();
   e.cell = [](const auto* p, auto* cell) {
     if (!(ValueOf(p[0])[0] > 0)) return;  // all lanes have the same parameters
@@ -88,10 +95,6 @@ Effect OpenSubstring() {
     cell->bypass_ideality = p[2];
   };
   e.groups = true;
-  e.covered = [](double* p, int which, int groups) {
-    p[0] = ShareLeft(p[0], which, groups);
-    return p[0] > 1e-3;
-  };
   e.why_not = [](const DataTraits& traits) {
     auto why = NeedsBypassedModule(traits);
     return why ? why : NeedsBypassDiodes(traits);

@@ -21,6 +21,7 @@ Effect Photoshunt() {
   e.separate_by = "a wide range of irradiance with little noise near the knee";
   e.action =
       "take a sweep at a fifth of the light: it belongs to the cells, and nothing repairs it";
+  e.prior = {0.02, 0.005, kCellPrior};
   e.parameters = {
       Parameter("Gph", "photoconductance", "conductance that 1000 W/m2 adds")
           .Unit("S")

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -18,6 +21,11 @@ Effect RangeSwitch() {
   e.confused_with = {"irr_step", "shading", "transient"};
   e.separate_by = "repeat the sweep in one fixed range, or read a resistor in both ranges";
   e.action = "repeat the sweep in one fixed range";
+  e.prior = {0.005, 0.005, kTracerPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {fmt::format("below {} the currents are {} than above", AmpereText(of.Of("Ir").value),
+                        SignedSize(Scaled(of.Of("g"), 100), "%", "larger", "smaller"))};
+  };
   e.parameters = {
       Parameter("g", "relative_gain", "of the range of small currents over the other")
           .Between(-0.2, 0.2)

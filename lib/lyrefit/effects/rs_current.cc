@@ -16,6 +16,7 @@ Effect RsCurrent() {
   e.confused_with = {"distributed_rs", "back_contact", "transient"};
   e.separate_by = "curves at several irradiances";
   e.action = "re-torque the connectors, or contact the cell anew, and measure again";
+  e.prior = {0.01, 0.01, kCellPrior};
   e.parameters = {Parameter("Rs1", "resistance_per_current", "change of Rs with current")
                       .Unit("ohm/A")
                       .Between(-0.2, 0.2)

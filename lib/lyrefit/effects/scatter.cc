@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -5,6 +7,7 @@
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 namespace {
@@ -163,6 +166,11 @@ Effect Scatter() {
   e.separate_by = "an electroluminescence image";
   e.action = "clean the module and measure again";
   e.fact_sheet = "PVFS 1-20";
+  e.prior = {0.005, 0.003, kFaultPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {fmt::format("the light of the cells differs by {}, one standard deviation",
+                        PercentWithRange(of.Of("s"), 1))};
+  };
   e.parameters = ScatterParameters();
   e.cell = [](const auto* p, auto* cell) { SetScatter(p, cell); };
   e.groups = true;

@@ -16,6 +16,7 @@ Effect SecondDiode() {
   e.confused_with = {"nonohmic_shunt", "temp_gradient", "collection"};
   e.separate_by = "a dark curve, or curves at low irradiance";
   e.action = "compare n with the data sheet or an earlier sweep: recombination grows as cells age";
+  e.prior = {0.05, 0.02, kCellPrior};
   e.parameters = {
       Parameter("Is2", "saturation_current_2", "saturation current of the diode with n = 2")
           .Unit("A")

@@ -1,5 +1,6 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -16,6 +17,10 @@ Effect SensorNonlinearity() {
   e.confused_with = {"sensor_offset", "current_offset"};
   e.separate_by = "a second sensor; two-lamp linearity test";
   e.action = "have the irradiance sensor calibrated";
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {"the light is " + SignedSize(Scaled(of.Of("c"), 100), "%", "more", "less") +
+            " than shown for each 1000 W/m2"};
+  };
   e.parameters = {
       Parameter("c", "nonlinearity", "relative error per 1000 W/m2").Between(-0.4, 0.4)};
   e.conditions = [](const auto* p, const auto&, auto* conditions) {

@@ -1,5 +1,6 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -16,6 +17,9 @@ Effect SensorOffset() {
   e.confused_with = {"current_offset", "voltage_offset", "sensor_nonlin"};
   e.separate_by = "the sensor covered; a dark curve";
   e.action = "cover the irradiance sensor and zero it";
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {"the light is " + SignedSize(of.Of("c"), "W/m2", "more", "less") + " than shown"};
+  };
   e.parameters = {Parameter("c", "irradiance_offset", "true minus shown")
                       .Unit("W/m2")
                       .Between(-0.1, 0.1)

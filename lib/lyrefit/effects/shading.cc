@@ -1,9 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 #include "lyrefit/effects/unlike_substrings.h"
 
 namespace lyrefit {
@@ -95,6 +97,11 @@ Effect Shading() {
       "does too, and is found in the junction box, in the dark";
   e.action = "look for shade, snow or dirt on the darker part and clear it";
   e.fact_sheet = "PVFS 3-3";
+  e.prior = {0.1, 0.1, kShadePrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {fmt::format("{} under {} of the others' {}{}", PartOfCells(of.readings, of.p[1]),
+                        LightLeft(of.p[0], of.Of("d")), of.light(), CoveredPart(of.p[3]))};
+  };
   e.parameters = ShadingParameters();
   e.cell = [](const auto* p, auto* cell) {
     cell->groups = cell->substrings = 2;
@@ -114,7 +121,6 @@ Effect Shading() {
     return SubstringsOf(traits) == 2 ? p[0] : kUnknown;
   };
   e.slight_is = "scatter";
-  e.covered = SecondIsShare;
   e.why_not = NeedsBypassDiodes;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -5,8 +7,8 @@
 #include <utility>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 #include "lyrefit/effects/unlike_substrings.h"
 
 namespace lyrefit {
@@ -162,25 +164,6 @@ void SetSubstrings(const S* p, Cell<S>* cell) {
   cell->bypass = p[kDrop];
 }
 
-bool SubstringsCovered(double* p, int which, int groups) {
-  int darkest_first[kGroups];
-  std::iota(darkest_first, darkest_first + kGroups, 0);
-  std::stable_sort(darkest_first, darkest_first + kGroups,
-                   [p](int a, int b) { return p[2 * a] > p[2 * b]; });
-  double before = 0, left = 0;
-  for (const int k : darkest_first) {
-    double& share = p[2 * k + 1];
-    const int first = static_cast<int>(std::lround(before * groups));
-    before += share;
-    share = ShareLeft(share, which, groups, first);
-    if (share < 1e-3) share = 0;
-    left += share;
-  }
-  constexpr double kMost = 0.999;
-  for (int k = 0; k < kGroups; ++k) p[2 * k + 1] *= left > kMost ? kMost / left : 1;
-  return left > 0;
-}
-
 // Whether lights fall from substring to substring down to a single brightest one, which may be
 // covered as well.
 bool LeavesOneBright(const double* p, const DataTraits& traits) {
@@ -208,6 +191,19 @@ std::vector<ShapeStart> SubstringStarts(const CurveShape& shape, const DataTrait
   return starts;
 }
 
+Phrases SubstringsInWords(const FittedEffect& of) {
+  Phrases words;
+  const double* p = of.p;
+  for (int k = 0; k < kGroups; ++k) {
+    if (!(p[2 * k + 1] > 0)) continue;
+    words.push_back(fmt::format("{} under {} of the brightest's {}{}",
+                                PartOfCells(of.readings, p[2 * k + 1]),
+                                LightLeft(p[2 * k], of.Of(fmt::format("d{}", k + 1))), of.light(),
+                                CoveredPart(p[kCovered])));
+  }
+  return words;
+}
+
 }  // namespace
 
 Effect Substrings() {
@@ -227,6 +223,8 @@ Effect Substrings() {
   e.separate_by = "repeat the sweep: shading stays at the same voltage, a cloud does not";
   e.action = "look for shade, snow or dirt on the darker parts and clear it";
   e.fact_sheet = "PVFS 3-3";
+  e.prior = {0.08, 0.08, kShadePrior};
+  e.in_words = SubstringsInWords;
   e.parameters = SubstringParameters();
   for (int k = 0; k < kGroups; ++k) e.alike.push_back({2 * k, 2 * k + 1});
   e.cell = [](const auto* p, auto* cell) { SetSubstrings(p, cell); };
@@ -241,7 +239,6 @@ Effect Substrings() {
   };
   e.slight_is = "scatter";
   e.hides = LeavesOneBright;
-  e.covered = SubstringsCovered;
   e.starts = SubstringStarts;
   e.why_not = [](const DataTraits& traits) {
     auto why = NeedsBypassedModule(traits);

@@ -1,5 +1,6 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -16,6 +17,10 @@ Effect TemperatureDrift() {
   e.confused_with = {"drift", "timing_skew", "capacitance"};
   e.separate_by = "a sweep up and down; a shorter sweep";
   e.action = "repeat the sweep faster, after the module has settled in the light";
+  e.prior = {0.003, 0.003, kSkyPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {SignedSize(of.Of("r"), "K", "warmer", "colder") + " at the end than at the begin"};
+  };
   e.parameters = {Parameter("r", "temperature_change", "warming over the measurement")
                       .Unit("K")
                       .Between(-10, 10)

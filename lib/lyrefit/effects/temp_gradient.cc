@@ -1,5 +1,6 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -16,6 +17,10 @@ Effect TemperatureGradient() {
   e.confused_with = {"second_diode", "back_contact", "bandgap"};
   e.separate_by = "flashes of different length; a thermometer on the cell; a dark curve";
   e.action = "fix a thermometer to the back of a cell in the middle of the module";
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {"the cells are " + SignedSize(of.Of("c"), "K", "warmer", "colder") +
+            " than shown at 1000 W/m2"};
+  };
   e.parameters = {
       Parameter("c", "temperature_gradient", "warmer at 1000 W/m2").Unit("K").Between(-5, 25)};
   e.conditions = [](const auto* p, const auto&, auto* conditions) {

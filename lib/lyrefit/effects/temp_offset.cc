@@ -1,5 +1,6 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -16,6 +17,9 @@ Effect TemperatureOffset() {
   e.confused_with = {"bandgap", "voltage_offset", "second_diode"};
   e.separate_by = "a second thermometer on the cell; four temperatures or more";
   e.action = "fix a second thermometer to the back of a cell and compare";
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {"the cells are " + SignedSize(of.Of("c"), "K", "warmer", "colder") + " than shown"};
+  };
   e.parameters = {
       Parameter("c", "temperature_offset", "true minus shown").Unit("K").Between(-25, 25)};
   e.conditions = [](const auto* p, const auto&, auto* conditions) {

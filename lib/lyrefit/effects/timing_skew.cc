@@ -1,5 +1,10 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -17,6 +22,20 @@ Effect TimingSkew() {
   e.confused_with = {"capacitance", "temp_drift"};
   e.separate_by = "two sweep speeds and two irradiances; a resistor in the place of the device";
   e.action = "repeat the sweep five times slower";
+  e.prior = {0.02, 0.02, kTracerPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    const ReadingScale& scale = of.readings.scale;
+    const Sized skew = of.Of("ts");
+    if (scale.times) {
+      return {"the voltage was read " + SignedSize(Scaled(skew, 1e3), "ms", "after", "before") +
+              " the current"};
+    }
+    // Without times the shift is known in readings and in volts only.
+    return {fmt::format(
+        "the voltage was read {} the current, {} mV along the sweep; the file has no times",
+        SignedSize(skew, "readings", "after", "before"),
+        PlainDigits(1e3 * std::fabs(of.p[0]) * scale.cells))};
+  };
   e.parameters = {Parameter("ts", "skew", "from the reading of the current to that of the voltage")
                       .Unit("s")
                       .Between(-0.05, 0.05)

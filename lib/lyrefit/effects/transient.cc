@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 namespace {
@@ -24,6 +27,13 @@ Effect Transient() {
   e.confused_with = {"shading", "back_contact", "rs_current", "nonohmic_shunt"};
   e.separate_by = "repeat the sweep; a reference cell beside the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
+  e.prior = {0.002, 0.005, kLampPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    const Sized depth = of.Of("a");  // a loss
+    return {fmt::format(
+        "near {:.4g} V the light {}", VoltageAtMoment(of),
+        LightChange({-depth.value, -depth.high_95, -depth.low_95}, of.Most(0), " for a moment"))};
+  };
   e.parameters = {
       Parameter("a", "relative_depth", "how much light was missing")
           .Between(-0.8, 0.8)

@@ -1,5 +1,6 @@
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -17,6 +18,10 @@ Effect VoltageOffset() {
   e.separate_by =
       "a reading with shorted leads; a dark curve through the origin at high resolution";
   e.action = "zero the voltage with shorted leads and measure again";
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    return {"the instrument reads " +
+            SignedSize(Scaled(of.Of("c"), 1e3), "mV", "too much", "too little")};
+  };
   e.parameters = {Parameter("c", "voltage_offset", "what the instrument adds, whole device")
                       .Unit("V")
                       .Between(-0.1, 0.1)

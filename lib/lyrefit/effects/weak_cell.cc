@@ -1,9 +1,13 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "lyrefit/base/roots.h"
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
+#include "lyrefit/effects/phrases.h"
+#include "lyrefit/model/cell.h"
 
 namespace lyrefit {
 namespace {
@@ -86,7 +90,79 @@ std::vector<ShapeStart> WeakCellStarts(const CurveShape& shape, bool asked) {
   return starts;
 }
 
+// Light of a weak cell, relative to the others, from its parameters. In a module of parallel chains
+// it is that of the cell in its own chain.
+double LightOfWeakCell(const double* p) { return 1 - p[kDeficit] * p[kSideBySide]; }
+
+// Reverse voltage (below 0) of the weak cell at a current above its photocurrent.
+double ReverseVoltage(const Effect& weak_cell, const double* p, double photocurrent,
+                      double conductance, double current) {
+  const double beyond = current - LightOfWeakCell(p) * photocurrent;
+  if (beyond <= 0) return 0;
+  const std::vector<Pack> own(p, p + weak_cell.size());
+  CellGroup<Pack> groups[kMostGroups];
+  Cell<Pack> cell{};
+  cell.group = groups;
+  cell.photocurrent = photocurrent;
+  cell.conductance = conductance;
+  weak_cell.cell.value(own.data(), &cell);
+  const auto missing = [&](double v) {  // at -v
+    return (conductance + p[kLeak]) * v + ReverseCurrent(cell, Tangent<Pack>(-v)).a[0] - beyond;
+  };
+  return -RootBetween(missing, 0, p[kSoft] > 0 ? 200 : p[kBreakdown]);
+}
+
+Phrases WeakCellInWords(const FittedEffect& of) {
+  const double* p = of.p;
+  const std::string cells =
+      p[kCells] > 1.5 ? fmt::format("{:.0f} cells have", p[kCells]) : std::string("one cell has");
+  Phrases words = {fmt::format("{} {} of the others' {}", cells,
+                               LightLeft(p[kDeficit], of.Of("d"), p[kSideBySide]), of.light())};
+  if (p[kSideBySide] > 1) {
+    words.push_back("the module's halves stand side by side: the other half goes on");
+  }
+  const HotCell hot = FindHotCell(of);
+  if (hot.heat_W > 0) {
+    words.push_back(fmt::format("at short circuit it stands at {:.1f} V and turns {:.3g} W to heat",
+                                hot.voltage_V, hot.heat_W));
+  }
+  return words;
+}
+
 }  // namespace
+
+HotCell FindHotCell(const FittedEffect& of) {
+  const Readings& readings = of.readings;
+  const double* p = of.p;
+  Readings at = InBrightestLight(readings);
+  Law rest = of.law;
+  rest.effects.clear();
+  const auto healthy = [&](double voltage) {  // current of a cell without a fault
+    at.points.front().voltage = voltage;
+    LawWorkspace workspace;
+    double current = 0;
+    EvaluateLaw(rest, at, of.parameters.data(), &workspace, &current, nullptr);
+    return current;
+  };
+  const double photocurrent =
+      of.parameters[kIph] * at.points.front().irradiance / readings.scale.current_A;
+  const double conductance = readings.scale.resistance_ohm() / of.parameters[kRsh];
+  const double cells = readings.traits.cells;
+  const double mates = cells / SubstringsOf(readings.traits) - 1;
+  const bool bypassed = SubstringsOf(readings.traits) > 1;
+  // Voltage balance at the voltage of its mates. Its root is that of the shorted module, or of a
+  // substring whose bypass diode conducts.
+  const auto excess = [&](double voltage) {
+    const double own = ReverseVoltage(of.effect(), p, photocurrent, conductance, healthy(voltage));
+    return bypassed ? own + mates * voltage + p[kBypass] : own + (cells - 1) * voltage;
+  };
+  if (!(healthy(0) > LightOfWeakCell(p) * photocurrent)) return {};
+  const double current = healthy(RootBetween(excess, 0, 1.1 * readings.pivot_voltage));
+  HotCell hot;
+  hot.voltage_V = ReverseVoltage(of.effect(), p, photocurrent, conductance, current);
+  hot.heat_W = -hot.voltage_V * current * readings.scale.current_A / p[kSideBySide];
+  return hot;
+}
 
 Effect WeakCell() {
   Effect e;
@@ -104,6 +180,8 @@ Effect WeakCell() {
   e.separate_by = "cover one cell after the other, or a thermal image under load";
   e.action = "look at the module with a thermal camera: one cell is covered, dark or broken";
   e.fact_sheet = "PVFS 1-19";
+  e.prior = {0.02, 0.02, kFaultPrior};
+  e.in_words = WeakCellInWords;
   e.parameters = WeakCellParameters();
   e.cell = [](const auto* p, auto* cell) {
     SetOddCells(p[kCells], p[kDeficit], p[kLeak], p[kSideBySide], cell);
@@ -115,7 +193,6 @@ Effect WeakCell() {
     cell->reverse_exponent = p[kExponent];
   };
   e.groups = true;
-  e.covered = GoneWithTheFirst;
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;

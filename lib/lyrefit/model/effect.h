@@ -328,21 +328,35 @@ struct ShapeStart {
   double giving = 1;       // part of the cells that gives the open-circuit voltage
 };
 
+// How often an effect is in a sweep at a size that matters, in sweeps of the field: probabilities in
+// orders of magnitude. 0: not known, it counts like an effect of one's own.
+struct EffectPrior {
+  double in_cells = 0;      // in a sweep of a cell
+  double in_modules = 0;    // ... of a module
+  const char* source = "";  // on what the numbers rest
+};
+
+struct FittedEffect;  // effects/fitted_effect.h
+
 // A named cause that changes the terminal law: its text for reports, parameters, stages and starts.
 struct Effect {
   const char* id = "";       // "nonohmic_shunt"
   const char* title = "";    // "non-ohmic shunt"
   const char* finding = "";  // id under which a diagnosis reports it; empty: its own
   Where where = Where::kDevice;
-  const char* equation = "";                // as printed in reports
-  const char* reference = "";               // source: keys of cite/references.h, or words
-  const char* sentence = "";                // for a technician
-  const char* needs = "";                   // data that can show it
-  const char* acts = "";                    // region of the curve where it shows
-  std::vector<const char*> confused_with;   // ids, most similar first
-  const char* separate_by = "";             // measurement that separates it from them
-  const char* action = "";                  // the next thing to do about it
-  const char* fact_sheet = "";              // of IEA-PVPS T13-30:2025, "PVFS 1-19"; may be empty
+  const char* equation = "";               // as printed in reports
+  const char* reference = "";              // source: keys of cite/references.h, or words
+  const char* sentence = "";               // for a technician
+  const char* needs = "";                  // data that can show it
+  const char* acts = "";                   // region of the curve where it shows
+  std::vector<const char*> confused_with;  // ids, most similar first
+  const char* separate_by = "";            // measurement that separates it from them
+  const char* action = "";                 // the next thing to do about it
+  const char* fact_sheet = "";             // of IEA-PVPS T13-30:2025, "PVFS 1-19"; may be empty
+  EffectPrior prior;                       // how common it is
+  // Its size for a technician, the most important first: light of substrings in %, heat of a cell. Null:
+  // a diagnosis says its largest change of the current.
+  std::vector<std::string> (*in_words)(const FittedEffect& of) = nullptr;
   std::vector<EffectParameter> parameters;  // the first is the strength, by default
   // Sets of parameters that can be exchanged without changing a curve (cell groups). Reports sort
   // the sets by the first parameter of each.
@@ -378,10 +392,6 @@ struct Effect {
   // Standard deviation of the power to gain, in parts of it, where the curve never shows the cells
   // that would give it. 0: that of other causes.
   double gain_scatter = 0;
-  // Transforms the parameters for a measurement in which bypass group `which` of `groups` is
-  // covered and only the other groups generate. The effect begins in the first group. Returns false
-  // if the effect vanishes. Null: the effect is the same in all cells.
-  bool (*covered)(double* p, int which, int groups) = nullptr;
 
   FoundBy found_by = FoundBy::kFit;
   // Divides the cells into cell groups: only one effect of a law may.

@@ -35,6 +35,18 @@ int SubstringsOf(const DataTraits& traits) {
   return std::min(std::max((traits.cells + kUsual - 1) / kUsual, 1), kMost);
 }
 
+Readings InBrightestLight(const Readings& measured) {
+  Reading at = measured.points.front();
+  for (const Reading& r : measured.points) {
+    if (r.irradiance > at.irradiance) at = r;
+  }
+  at.x = at.rate = 0;
+  at.current = at.irradiance > 0 ? 1 : 0;
+  Readings bare = measured;
+  bare.points = {at};
+  return bare;
+}
+
 namespace {
 
 bool TimesIncrease(const std::vector<double>& time) {

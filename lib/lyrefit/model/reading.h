@@ -103,4 +103,7 @@ struct Readings {
   double pivot_voltage = 0;                   // V per cell, about Voc
 };
 
+// The measurement with one reading, whose conditions are those of the brightest light.
+Readings InBrightestLight(const Readings& measured);
+
 }  // namespace lyrefit

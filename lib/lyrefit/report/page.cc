@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -82,6 +84,9 @@ std::map<const block::Figure*, std::string> DrawFigures(
   return elements;
 }
 
+constexpr char kVerdictBegin[] = "<div class=\"verdict\">\n<h2>Verdict</h2>\n";
+constexpr char kAheadBegin[] = "<!--ahead-->\n", kAheadEnd[] = "<!--/ahead-->\n";
+
 // Whether a section holds only the verdict.
 bool IsVerdict(const Section& section, const std::string& verdict) {
   if (section.blocks.size() != 1) return false;
@@ -103,7 +108,7 @@ PageParts Arrange(const Document& document) {
     parts.summary += "<p role=\"alert\">" + HtmlElement("strong", banner) + "</p>\n";
   }
   if (!document.verdict.empty()) {
-    parts.summary += "<div class=\"verdict\">\n<h2>Verdict</h2>\n";
+    parts.summary += kVerdictBegin;
     std::istringstream lines(document.verdict);
     for (std::string line; std::getline(lines, line);) {
       parts.summary += HtmlElement("p", line) + "\n";
@@ -200,6 +205,23 @@ std::string DrawPage(const Document& document, const std::string& json,
     page.data.push_back({FigureId(i + 1) + "-chart", PlotlyJson(figures[i]->figure)});
   }
   return DrawShell(page);
+}
+
+std::string WithVerdictAhead(const std::string& page, const std::vector<std::string>& lines,
+                             const std::string& own) {
+  const std::string_view begin_mark = kAheadBegin, end_mark = kAheadEnd;
+  const std::size_t verdict = page.find(kVerdictBegin);
+  if (verdict == std::string::npos) return page;
+  const std::size_t begin = verdict + std::strlen(kVerdictBegin);
+  std::size_t end = begin;
+  if (page.compare(begin, begin_mark.size(), begin_mark) == 0) {
+    const std::size_t last = page.find(end_mark, begin);
+    if (last != std::string::npos) end = last + end_mark.size();
+  }
+  std::string ahead(begin_mark);
+  for (const std::string& line : lines) ahead += "<p>" + HtmlElement("strong", line) + "</p>\n";
+  ahead += HtmlElement("p", own) + "\n";
+  return page.substr(0, begin) + ahead.append(end_mark) + page.substr(end);
 }
 
 }  // namespace lyrefit

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lyrefit/base/public.h"
 #include "lyrefit/report/document.h"
@@ -22,5 +23,10 @@ struct PageOptions {
 // A block::LongTable is drawn without its rows, which batch/plant_page.h adds.
 std::string DrawPage(const Document& document, const std::string& json,
                      const PageOptions& options = {});
+
+// The page with `lines` at the head of its verdict, in place of such lines of an earlier call; below
+// `own` stand the lines of the page itself. A page without a verdict stays as it is.
+std::string WithVerdictAhead(const std::string& page, const std::vector<std::string>& lines,
+                             const std::string& own);
 
 }  // namespace lyrefit

@@ -20,25 +20,6 @@ std::vector<ComparedAlgorithm> PlainAlgorithms(const std::vector<Algorithm>& alg
   return result;
 }
 
-std::vector<ComparedAlgorithm> SensitivityAlgorithms(
-    const std::vector<double>& memory_rates, const std::vector<double>& distance_coefficients,
-    const SearchOptions& search) {
-  std::vector<ComparedAlgorithm> result;
-  for (const double memory_rate : memory_rates) {
-    for (const double distance_coefficient : distance_coefficients) {
-      ComparedAlgorithm compared;
-      compared.name = fmt::format("Pm={:g} gamma={:g}", memory_rate, distance_coefficient);
-      compared.algorithm = ToText(Algorithm::kMlo);
-      compared.search = search;
-      compared.search.algorithm = Algorithm::kMlo;
-      compared.search.memory_rate = memory_rate;
-      compared.search.distance_coefficient = distance_coefficient;
-      result.push_back(std::move(compared));
-    }
-  }
-  return result;
-}
-
 std::vector<ComparedAlgorithm> BudgetAlgorithms(const std::vector<Algorithm>& algorithms,
                                                 const std::vector<std::int64_t>& budgets,
                                                 const SearchOptions& search) {

@@ -14,10 +14,6 @@ namespace LYREFIT_PUBLIC lyrefit {
 // settings of the algorithms.
 std::vector<ComparedAlgorithm> PlainAlgorithms(const std::vector<Algorithm>& algorithms,
                                                const SearchOptions& search);
-// MLO with every pair of Pm (outer loop) and gamma. Names have the form "Pm=0.5 gamma=0.25".
-std::vector<ComparedAlgorithm> SensitivityAlgorithms(
-    const std::vector<double>& memory_rates, const std::vector<double>& distance_coefficients,
-    const SearchOptions& search);
 // The algorithm named "shape" or "default", by its kind. Its search settings are fixed by the kind.
 ComparedAlgorithm OwnAlgorithm(AlgorithmKind kind);
 // Every algorithm with every budget of objective evaluations; the algorithm is the outer loop. The

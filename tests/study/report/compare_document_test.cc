@@ -106,55 +106,5 @@ TEST(CompareDocument, NamesTheRowsOfEachCurveInOneTable) {
   EXPECT_THAT(markdown, HasSubstr("*Search and polish: RMSE in A"));
 }
 
-// MLO and random points with three budgets each. `missed`: number of runs of random points with the
-// largest budget that did not hit.
-Comparison BudgetComparison(int missed) {
-  Comparison comparison =
-      SampleComparison(BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {10, 100, 1000}));
-  comparison.problems.pop_back();
-  auto& algorithms = comparison.problems[0].algorithms;
-  for (AlgorithmResult& compared : algorithms) {
-    compared.searched.within_1e6 = 0;
-    compared.plain_polished.within_1e9 = 2;
-    compared.polished.within_1e9 = compared.own_polished.within_1e9 = 4;
-  }
-  algorithms[0].own_polished.within_1e9 = 3;
-  algorithms[3].polished.within_1e9 = 3;
-  algorithms[5].polished.within_1e9 -= missed;
-  return comparison;
-}
-
-TEST(BudgetText, SaysWhatTheGoldenFileHas) {
-  Golden golden("budget");
-  golden.Add("three budgets", BudgetText(BudgetComparison(0)));
-  golden.AddChanges("random points miss once", BudgetText(BudgetComparison(1)));
-  Comparison comparison = BudgetComparison(0);
-  comparison.problems[0].algorithms[3].polished.within_1e9 = 4;
-  golden.AddChanges("random points do as well", BudgetText(comparison));
-  comparison = BudgetComparison(0);
-  comparison.problems[0].algorithms[1].polished.within_1e9 = 2;
-  golden.AddChanges("a smaller budget hits, a larger one does not", BudgetText(comparison));
-  comparison =
-      SampleComparison(BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {1000, 100, 10}));
-  comparison.problems.pop_back();
-  comparison.interrupted = true;
-  comparison.problems[0].complete = false;
-  comparison.problems[0].algorithms.pop_back();  // random@10
-  golden.Add("a budget without a run", BudgetText(comparison));
-  comparison.problems.clear();
-  golden.Add("interrupted at once", BudgetText(comparison));
-  golden.Check();
-}
-
-TEST(SensitivityText, SaysWhatTheGoldenFileHas) {
-  Golden golden("sensitivity");
-  Comparison comparison = SampleComparison(SensitivityAlgorithms({0, 0.5}, {0.25, 1}, {}));
-  golden.Add("a grid of Pm and gamma", SensitivityText(comparison));
-  comparison.interrupted = true;
-  comparison.problems.clear();
-  golden.Add("interrupted at once", SensitivityText(comparison));
-  golden.Check();
-}
-
 }  // namespace
 }  // namespace lyrefit

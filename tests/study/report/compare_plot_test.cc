@@ -20,10 +20,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-Comparison BudgetComparison() {
-  return SampleComparison(BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {10, 100}));
-}
-
 // Expects an SVG with balanced opening and closing tags.
 void ExpectSoundSvg(const std::string& svg) {
   EXPECT_THAT(svg, HasSubstr("<svg"));
@@ -47,9 +43,8 @@ void ExpectSoundSvg(const std::string& svg) {
 TEST(ComparePlots, AreSoundSvg) {
   const TempFolder folder;
   ASSERT_TRUE(PlotBoxes(SampleComparison(), folder.Path("box.svg")));
-  ASSERT_TRUE(PlotConvergence(SampleComparison(), folder.Path("course.svg")));
-  ASSERT_TRUE(PlotBudget(BudgetComparison(), folder.Path("budget.SVG")));
-  for (const char* name : {"box.svg", "course.svg", "budget.SVG"}) {
+  ASSERT_TRUE(PlotConvergence(SampleComparison(), folder.Path("course.SVG")));
+  for (const char* name : {"box.svg", "course.SVG"}) {
     SCOPED_TRACE(name);
     ExpectSoundSvg(FileText(folder.Path(name)));
   }
@@ -74,11 +69,6 @@ TEST(ComparePlots, NameAxesPanelsAndAlgorithms) {
   }
   EXPECT_THAT(FileText(folder.Path("box.svg")), HasSubstr("after the polish"));
   EXPECT_THAT(FileText(folder.Path("course.svg")), HasSubstr("Evaluations of the objective"));
-  ASSERT_TRUE(PlotBudget(BudgetComparison(), folder.Path("budget.svg")));
-  const std::string budget = FileText(folder.Path("budget.svg"));
-  EXPECT_THAT(budget, HasSubstr("sample_cell DD: all starts"));
-  EXPECT_THAT(budget, HasSubstr("Runs that hit (%)"));
-  EXPECT_THAT(budget, Not(HasSubstr("@10")));
 }
 
 TEST(ComparePlots, TakeRunsThatAreAllEqualOrEndless) {

@@ -5,7 +5,6 @@
 #include "report/well_formed.h"
 #include "sample_audit.h"
 #include "sample_comparison.h"
-#include "study/synthetic_summary.h"
 
 namespace lyrefit {
 namespace {
@@ -15,11 +14,7 @@ TEST(StudyDocuments, AreWellFormedPages) {
   Comparison outlier = SampleComparison();
   outlier.problems[0].curve_name = "<!-- & ]]> \"curve\"";
   outlier.interrupted = true;
-  const Comparison summarised = SyntheticComparison(
-      {SyntheticDevice("x 0", "x <1>", {SyntheticAlgorithm("random", 100, {{9, 2, 2}})})});
-  const std::vector<Document> documents = {
-      AuditDocument(SampleAudit()), CompareDocument(outlier), BudgetDocument(SampleComparison()),
-      BudgetDocument(summarised), SensitivityDocument(SampleComparison())};
+  const std::vector<Document> documents = {AuditDocument(SampleAudit()), CompareDocument(outlier)};
   for (const Document& document : documents) {
     EXPECT_EQ(Complaints(DrawHtml(document)), "") << document.head.heading;
   }

@@ -88,21 +88,5 @@ TEST(PeerText, SaysHowManyTimesFasterOrThatNoneHitsAsOften) {
   EXPECT_EQ(PeerText(SummariseProblems(none)[0]), "");
 }
 
-std::string Drawn(block::Table table) { return DrawText({{}, {"", {std::move(table)}}}); }
-
-TEST(VerdictTable, HasALineOfEachProblem) {
-  const Comparison comparison = Fifty({{"shape", 0, 0, 50, 0},
-                                       {"default", 0, 0, 49, 2},
-                                       {"mlo", 1000, 48, 50, 50},
-                                       {"random", 1000, 30, 50, 50},
-                                       {"pagmo:de", 1000, 47, 50, 123}});
-  const std::string table = Drawn(VerdictTable(SummariseProblems(comparison)));
-  EXPECT_THAT(table, ::testing::HasSubstr("50  50 (30 ms)  49 (32 ms)  mlo@1000 48 (55 ms)  "
-                                          "random@1000 30 (55 ms)  pagmo:de@1000 47 (128 ms)"));
-  const Comparison bare = Fifty({{"random", 100, 0, 1, 5}});
-  EXPECT_THAT(Drawn(VerdictTable(SummariseProblems(bare))),
-              ::testing::HasSubstr("-        -  random@100 1 (35 ms)       -     -"));
-}
-
 }  // namespace
 }  // namespace lyrefit

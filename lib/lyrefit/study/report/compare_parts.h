@@ -73,12 +73,4 @@ Section ProblemSection(const Comparison& comparison, const ProblemResult& proble
 Section RankSection(const ProblemResult& problem);
 Section PolishVerdict(const ProblemResult& problem);
 
-// Defined in compare_ranks.cc: a sentence for each algorithm that is significantly better than
-// others. `names` are in the order of the ranks.
-std::vector<std::string> WinnerSentences(const std::vector<std::string>& names,
-                                         const Ranking& ranking);
-
-// Defined in problem_document.cc: problems with many local optima; empty if there are none.
-std::vector<Section> ProblemSections(const Comparison& comparison);
-
 }  // namespace lyrefit

@@ -22,9 +22,4 @@ Expected<void> PlotConvergence(const Comparison& comparison, const std::string& 
   return Draw(ConvergenceFigure, comparison, path);
 }
 
-Expected<void> PlotBudget(const Comparison& comparison, const std::string& path) {
-  const bool summarised = !comparison.problems.empty() && !comparison.problems[0].problem.empty();
-  return Draw(summarised ? ProblemFigure : BudgetFigure, comparison, path);
-}
-
 }  // namespace lyrefit

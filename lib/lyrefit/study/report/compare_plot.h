@@ -23,8 +23,4 @@ Expected<void> PlotBoxes(const Comparison& comparison, const std::string& path);
 // are logarithmic.
 Expected<void> PlotConvergence(const Comparison& comparison, const std::string& path);
 
-// Share of runs that hit against evaluations, for algorithms of BudgetAlgorithms(). Each problem is
-// a row of panels and each polish level a column.
-Expected<void> PlotBudget(const Comparison& comparison, const std::string& path);
-
 }  // namespace lyrefit

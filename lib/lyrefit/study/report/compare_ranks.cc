@@ -102,6 +102,27 @@ std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& 
                       AtLeast(smallest_p), differing.Text(), runs)};
 }
 
+// A sentence for each algorithm that is significantly better than others. `names` are in the order of the ranks.
+std::vector<std::string> WinnerSentences(const std::vector<std::string>& names,
+                                         const Ranking& ranking) {
+  std::vector<std::string> sentences;
+  for (int c = 0; c < static_cast<int>(names.size()); ++c) {
+    std::string losers;
+    double largest_p = 0;
+    for (const SignedRank& pair : ranking.signed_ranks) {
+      const int winner = FirstIsBetter(pair) ? pair.first : pair.second;
+      if (pair.p_holm >= kSignificant || winner != c) continue;
+      const int loser = pair.first + pair.second - winner;
+      losers += (losers.empty() ? "" : ", ") + names[loser];
+      largest_p = std::max(largest_p, pair.p_holm);
+    }
+    if (losers.empty()) continue;
+    sentences.push_back(
+        fmt::format("{} below {} (p at most {})", names[c], losers, PText(largest_p)));
+  }
+  return sentences;
+}
+
 // Adds the mean ranks and the significant pairs of a stage. `note` is appended to the pairs.
 void AddTests(const ProblemResult& problem, const Ranking& ranking, const char* stage,
               const std::string& note, Section* section) {
@@ -125,26 +146,6 @@ void AddTests(const ProblemResult& problem, const Ranking& ranking, const char* 
 }
 
 }  // namespace
-
-std::vector<std::string> WinnerSentences(const std::vector<std::string>& names,
-                                         const Ranking& ranking) {
-  std::vector<std::string> sentences;
-  for (int c = 0; c < static_cast<int>(names.size()); ++c) {
-    std::string losers;
-    double largest_p = 0;
-    for (const SignedRank& pair : ranking.signed_ranks) {
-      const int winner = FirstIsBetter(pair) ? pair.first : pair.second;
-      if (pair.p_holm >= kSignificant || winner != c) continue;
-      const int loser = pair.first + pair.second - winner;
-      losers += (losers.empty() ? "" : ", ") + names[loser];
-      largest_p = std::max(largest_p, pair.p_holm);
-    }
-    if (losers.empty()) continue;
-    sentences.push_back(
-        fmt::format("{} below {} (p at most {})", names[c], losers, PText(largest_p)));
-  }
-  return sentences;
-}
 
 Section RankSection(const ProblemResult& problem) {
   Section section = {"", {}, 1};

@@ -26,13 +26,4 @@ std::string BriefAudit(const AuditReport& report);
 Document CompareDocument(const Comparison& comparison);
 std::string CompareText(const Comparison& comparison);
 
-// Algorithms of BudgetAlgorithms(): hits by algorithm and budget, one table for each polish level.
-// Problems with many local optima follow, summarised over their devices.
-Document BudgetDocument(const Comparison& comparison);
-std::string BudgetText(const Comparison& comparison);
-
-// Algorithms of SensitivityAlgorithms(): grids of Pm and gamma.
-Document SensitivityDocument(const Comparison& comparison);
-std::string SensitivityText(const Comparison& comparison);
-
 }  // namespace lyrefit

@@ -60,14 +60,6 @@ std::string RandomText(const Configuration& random) {
                      HowText(random, "at"));
 }
 
-// "50 (12 ms)"; with the name of a search: "lo@3000 49 (299 ms)"
-std::string ConfigurationText(const std::optional<Configuration>& way, bool named) {
-  if (!way) return "-";
-  const LevelSummary& figures = way->figures();
-  return (named ? way->algorithm->name + " " : "") +
-         fmt::format("{} ({})", figures.hits, Duration(figures.seconds));
-}
-
 std::string Headline(const SearchVerdict& verdict) {
   if (verdict.shape_wins) return "no search is needed";
   if (!verdict.search) return "nothing is enough";
@@ -89,26 +81,6 @@ std::string VerdictText(const ProblemSummary& summary) {
   if (verdict.search || verdict.best) add(SearchText(verdict));
   if (verdict.random) add(RandomText(*verdict.random));
   return text;
-}
-
-block::Table VerdictTable(const std::vector<ProblemSummary>& summaries) {
-  block::Table table = {"lrrrrrr",
-                        {{"problem", "runs", "shape", "default", "search", "random", "peer"}}};
-  for (const ProblemSummary& summary : summaries) {
-    const SearchVerdict verdict = JudgeProblem(summary);
-    const std::optional<PeerRatio> ratio = CompareWithPeers(summary);
-    const std::optional<Configuration>& search = verdict.search ? verdict.search : verdict.best;
-    int runs = 0;
-    for (const std::optional<Configuration>& way : {verdict.shape, search}) {
-      if (way) runs = way->figures().runs;
-    }
-    table.rows.push_back(
-        {summary.name, std::to_string(runs), ConfigurationText(verdict.shape, false),
-         ConfigurationText(ratio ? std::optional<Configuration>(ratio->self) : std::nullopt, false),
-         ConfigurationText(search, true), ConfigurationText(verdict.random, true),
-         ConfigurationText(ratio ? ratio->peer : std::nullopt, true)});
-  }
-  return table;
 }
 
 std::string PeerText(const ProblemSummary& summary) {

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "lyrefit/report/document.h"
 #include "lyrefit/study/verdict.h"
 
 namespace lyrefit {
@@ -14,12 +12,6 @@ namespace lyrefit {
 // the searches random reaches 48 of 50 with the best candidate's own polish from 1000
 // evaluations (310 ms)"
 std::string VerdictText(const ProblemSummary& summary);
-
-// A table with one line for each problem: hits and median time of a run. The first columns are the
-// starts from the shape alone and the default fit. Then follows the sufficient search, else the one
-// with the most hits. The last columns are random points and the peer with the least time to a sure
-// hit.
-block::Table VerdictTable(const std::vector<ProblemSummary>& summaries);
 
 // "default (50 of 50, 10 ms) is 12 times faster than pagmo:cmaes@1000 (45 of 50, 60 ms), run 2
 // times". Empty if the default fit or all peers were not compared.

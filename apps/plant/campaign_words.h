@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "plant/campaign.h"
+
+namespace lyrefit {
+
+// Sentences on changes.
+
+// What is said of one string: the columns change_sentence, change_candidates and change_action.
+struct ChangeTexts {
+  std::string sentence, candidates, action;
+};
+ChangeTexts TextsOf(const Campaign& campaign, const std::vector<CampaignString>& before,
+                    const std::vector<CampaignString>& after, std::size_t i);
+
+// What a change that all strings share may come from. `whose`: the subject of the sentence.
+std::string CommonSentence(const CampaignGroup& group, const char* whose);
+
+double Percent(double logarithm);                    // of a ratio, less 1
+double Half95(const CampaignChange& change, int q);  // half-width of the 95 % interval
+bool HasChange(const CampaignChange& change);        // there are figures of both campaigns
+
+}  // namespace lyrefit

@@ -1,0 +1,234 @@
+#include "plant/plant_summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/reasons.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr const char* kNames[] = {"id",
+                                  "status",
+                                  "reason",
+                                  "date",
+                                  "zone",
+                                  "cause",
+                                  "cause_title",
+                                  "string_cause_title",
+                                  "string_to_do",
+                                  "performance_factor",
+                                  "Pmax_stc_W",
+                                  "recoverable_power_W",
+                                  "group_deviation_percent",
+                                  "lack_of_fit_percent",
+                                  "page",
+                                  "below_rating_W",
+                                  "group_flag",
+                                  "sparkline",
+                                  "plan_cause",
+                                  "loss_now_total_percent",
+                                  "onset_date",
+                                  "largest_loss",
+                                  "first",
+                                  "last"};
+
+PlantShare& ShareOf(const std::string& word, std::map<std::string, PlantShare>* shares) {
+  if (shares->size() < kPlantMostWords || shares->count(word)) return (*shares)[word];
+  return (*shares)["others"];
+}
+
+void Count(const std::string& word, const PlantRow& row,
+           std::map<std::string, PlantShare>* shares) {
+  if (word.empty()) return;
+  PlantShare& share = ShareOf(word, shares);
+  ++share.rows;
+  if (row.verdict.lost_W > 0) share.recoverable_power_W += row.verdict.lost_W;
+  if (row.below_rating_W > 0) share.below_rating_W += row.below_rating_W;
+  if (share.title.empty()) share.title = row.verdict.title;
+}
+
+// The cause of a row, and its title.
+std::string CauseOf(const PlantRow& row) {
+  return row.verdict.cause.empty() ? kNoCause : row.verdict.cause;
+}
+
+std::string TitleOf(const PlantRow& row) {
+  return row.verdict.cause.empty() || row.verdict.title.empty() ? CauseOf(row) : row.verdict.title;
+}
+
+bool Passes(const std::string& zone) { return zone.rfind("pass", 0) == 0; }
+
+bool IsFine(const std::string& status) { return status.empty() || status == "fine"; }
+
+}  // namespace
+
+PlantCounter::PlantCounter(const std::vector<ResultColumn>& columns)
+    : judge_(columns), sampler_(columns), losses_(columns) {
+  for (int known = 0; known < kColumns; ++known) {
+    const auto at = std::find_if(columns.begin(), columns.end(), [&](const ResultColumn& column) {
+      return column.name == kNames[known];
+    });
+    places_[known] = at == columns.end() ? -1 : static_cast<int>(at - columns.begin());
+  }
+  sum_.judged_by = Has(kZone) ? "zone" : Has(kCause) || Has(kPlanCause) ? "cause" : "";
+  for (const Known by : {kStringTitle, kCauseTitle, kCause}) {
+    if (Has(by) && sum_.titled_by.empty()) sum_.titled_by = kNames[by];
+  }
+  sum_.tells_what_to_do = Has(kToDo);
+  if (judge_.judges()) sum_.worst_by = "what is lost";
+  for (const Known by : {kPerformance, kLostNow, kDeviation, kRecoverable, kDeparture}) {
+    if (Has(by) && sum_.worst_by.empty()) sum_.worst_by = kNames[by];
+  }
+}
+
+std::string PlantCounter::Text(const ResultRow& row, Known column) const {
+  const std::size_t place = places_[column];
+  if (!Has(column) || place >= row.cells.size()) return "";
+  const std::string* text = std::get_if<std::string>(&row.cells[place]);
+  return text ? *text : "";
+}
+
+double PlantCounter::Number(const ResultRow& row, Known column) const {
+  return Has(column) ? NumberAt(row, places_[column]) : kUnknown;
+}
+
+bool PlantCounter::Differs(const ResultRow& row) const {
+  const std::size_t place = places_[kDiffers];
+  if (!Has(kDiffers) || place >= row.cells.size()) return false;
+  const bool* const differs = std::get_if<bool>(&row.cells[place]);
+  return differs != nullptr && *differs;
+}
+
+// Sort key of the worst rows, larger is worse; NaN: unknown.
+double PlantCounter::Badness(const ResultRow& row) const {
+  if (Has(kPerformance)) return -Number(row, kPerformance);
+  if (Has(kLostNow)) return Number(row, kLostNow);
+  if (Has(kDeviation)) return -Number(row, kDeviation);
+  if (Has(kRecoverable)) return Number(row, kRecoverable);
+  return Number(row, kDeparture);
+}
+
+// Keeps at most `most` rows, those of the highest ranks.
+void PlantCounter::Keep(Rank rank, const PlantRow& row, std::size_t most, Ranked* ranked) {
+  const auto larger = [](const auto& one, const auto& other) { return one.first > other.first; };
+  if (ranked->size() == most && !(rank > ranked->front().first)) return;
+  ranked->emplace_back(rank, row);
+  std::push_heap(ranked->begin(), ranked->end(), larger);
+  if (ranked->size() <= most) return;
+  std::pop_heap(ranked->begin(), ranked->end(), larger);
+  ranked->pop_back();
+}
+
+std::vector<PlantRow> PlantCounter::InOrder(Ranked ranked) {
+  std::sort(ranked.begin(), ranked.end(), [](const auto& one, const auto& other) {
+    return one.first != other.first ? one.first > other.first : one.second.id < other.second.id;
+  });
+  std::vector<PlantRow> rows;
+  rows.reserve(ranked.size());
+  for (auto& row : ranked) rows.push_back(std::move(row.second));
+  return rows;
+}
+
+void PlantCounter::CountTree(const PlantRow& row) {
+  const bool needs_work = row.verdict.NeedsWork();
+  std::size_t end = row.id.find('/');
+  for (std::size_t depth = 0; depth < deepest_ && end != std::string::npos; ++depth) {
+    if (sum_.levels.size() == depth) sum_.levels.emplace_back();
+    auto& nodes = sum_.levels[depth];
+    PlantNode& node = nodes[row.id.substr(0, end)];
+    ++node.rows;
+    node.in_need += needs_work ? 1 : 0;
+    if (needs_work) Count(TitleOf(row), row, &node.causes);
+    // The comparison is false if one side is NaN.
+    if (!(node.lowest_performance <= row.performance_factor) &&
+        std::isfinite(row.performance_factor)) {
+      node.lowest_performance = row.performance_factor;
+    }
+    if (nodes.size() > kPlantMostNodes) {
+      deepest_ = depth;
+      sum_.levels.resize(depth);
+    }
+    end = row.id.find('/', end + 1);
+  }
+}
+
+void PlantCounter::CountWords(const PlantRow& row, const std::string& status) {
+  Count(status, row, &sum_.status);
+  if (!IsFine(status)) {
+    const std::string reason = row.reason.empty() ? "no reason given" : row.reason;
+    const auto first = first_reasons_.try_emplace(WithoutNumbers(reason), reason).first;
+    Count(first->second, row, &sum_.reasons);
+    if (sum_.broken.size() < kPlantListed) sum_.broken.push_back(row);
+    return;
+  }
+  Count(row.verdict.zone, row, &sum_.zones);
+  const bool named = !row.verdict.cause.empty();
+  if (row.verdict.NeedsWork()) Count(CauseOf(row), row, &sum_.causes);
+  if (row.verdict.to_do == ToDo::kMeasureAgain) Count(CauseOf(row), row, &sum_.causes_to_repeat);
+  if (row.verdict.to_do == ToDo::kInspect && named)
+    Count(CauseOf(row), row, &sum_.causes_of_passed);
+}
+
+void PlantCounter::CountDate(const std::string& date) {
+  if (!date.empty() && (sum_.first_date.empty() || date < sum_.first_date)) sum_.first_date = date;
+  sum_.last_date = std::max(sum_.last_date, date);
+}
+
+void PlantCounter::Add(const ResultRow& row) {
+  PlantRow named;
+  named.id = Text(row, kId);
+  named.verdict = judge_.Judge(row);
+  named.reason = Text(row, kReason);
+  named.page = Text(row, kPage);
+  named.sparkline = Text(row, kSparkline);
+  named.onset_date = Text(row, kOnset);
+  named.largest_loss = Text(row, kLargestLoss);
+  named.lost_now_percent = Number(row, kLostNow);
+  named.below_rating_W = Number(row, kBelow);
+  named.deviation_percent = Number(row, kDeviation);
+  named.performance_factor = Number(row, kPerformance);
+  named.Pmax_stc_W = Number(row, kPower);
+  const std::string status = Text(row, kStatus);
+  const bool fine = IsFine(status);
+  const bool needs_work = named.verdict.NeedsWork();
+  const bool differs = fine && Differs(row);
+
+  ++sum_.rows;
+  sum_.fine += fine ? 1 : 0;
+  sum_.passed += fine && Passes(named.verdict.zone) ? 1 : 0;
+  sum_.in_need += needs_work ? 1 : 0;
+  sum_.to_repeat += named.verdict.to_do == ToDo::kMeasureAgain ? 1 : 0;
+  if (std::isfinite(named.Pmax_stc_W)) sum_.power_W += named.Pmax_stc_W;
+  if (needs_work && named.verdict.lost_W > 0) sum_.recoverable_power_W += named.verdict.lost_W;
+  if (differs && !needs_work) ++sum_.passed_outlier;
+  if (needs_work && named.below_rating_W > 0) sum_.below_rating_W += named.below_rating_W;
+  CountWords(named, status);
+  for (const Known date : {kDate, kFirst, kLast}) CountDate(Text(row, date));
+  CountTree(named);
+  if (!fine) return;
+  const double badness = Badness(row);
+  const auto known = [](double value) { return std::isfinite(value) ? value : -HUGE_VAL; };
+  if (!judge_.judges()) {
+    if (std::isfinite(badness)) Keep({badness}, named, kPlantWorst, &worst_);
+  } else if (named.verdict.NeedsAVisit()) {
+    const double urgency = -static_cast<double>(named.verdict.to_do);
+    Keep({urgency, std::fmax(named.lost_W(), 0), known(badness)}, named, kPlantWorst, &worst_);
+  }
+  sampler_.Add(row, differs);
+  losses_.Add(named.id, row);
+  if (!differs) return;
+  const double by = std::fabs(named.deviation_percent);
+  Keep({std::isfinite(by) ? by : 0}, named, kPlantListed, &outliers_);
+}
+
+PlantSummary PlantCounter::Summary() const {
+  PlantSummary summary = sum_;
+  summary.sample = sampler_.sample();
+  summary.losses = losses_.summary();
+  summary.worst = InOrder(worst_);
+  summary.outliers = InOrder(outliers_);
+  return summary;
+}
+
+}  // namespace lyrefit

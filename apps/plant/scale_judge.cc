@@ -1,0 +1,275 @@
+#include "plant/scale_judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/batch/batch_task.h"
+#include "lyrefit/batch/count_rows.h"
+
+namespace lyrefit {
+namespace {
+
+// Errors of a whole combiner against its plan: a light sensor within 2.5 % with dirt and current
+// classes; temperature within 1.5 K and a Voc of the data sheet within 0.6 %; what one diode through
+// the data sheet misses at another light; cables.
+constexpr ScaleVector kPlanErrors = {0.030, 0.0075, 0.025, 0.020, 0.15};
+constexpr double kPlanDegrees = 30;
+
+// Odds of exchanged strings to a fault of one, where both fit the plan of the other; and where more
+// than one string fits it, of which one was exchanged.
+constexpr double kExchangedOdds = 20;
+constexpr double kUnclearOdds = 0.1;
+constexpr double kExchangedFit = 0.01;  // least p-value of both
+
+// A string with what is said of it.
+struct Judged {
+  ScaleVerdict verdict;
+  ScaleVector deviation{};
+  bool shared = false;  // of all strings of the combiner
+  std::string partner;
+};
+
+ScaleContext ContextOf(const ScaleMember& member, const ScaleResidual& residual) {
+  ScaleContext context;
+  context.expected = residual.expected;
+  context.cells = member.cells;
+  context.temperature_K = member.temperature_C + kZeroCelsius_K;
+  context.modules = member.modules;
+  context.strings = member.strings;
+  context.bypass_diodes = member.bypass_diodes;
+  return context;
+}
+
+bool SamePlan(const ScaleMember& one, const ScaleMember& other) {
+  return one.modules == other.modules && one.strings == other.strings &&
+         one.module == other.module && one.cells == other.cells;
+}
+
+// What the logarithms of a string change by if it is built as `other`. Without data sheets the
+// modules are of one type.
+ScaleVector BuiltAs(const ScaleMember& other, const ScaleMember& one) {
+  if (!one.IsPlanned() || !other.IsPlanned()) {
+    ScaleVector shift{};
+    const auto series = [](const ScaleMember& m) { return m.modules > 0 ? m.modules : m.cells; };
+    shift[kScaleIsc] = std::log(std::max(other.strings, 1)) - std::log(std::max(one.strings, 1));
+    shift[kScaleVoc] = std::log(series(other) / series(one));
+    return shift;
+  }
+  const ScaleDevice device(other.planned, static_cast<int>(other.cells),
+                           other.temperature_C + kZeroCelsius_K);
+  ScaleVector logs = LogsOf(other.planned);
+  const ScaleVector light = device.ByLight(one.irradiance_W_m2 / other.irradiance_W_m2);
+  const ScaleVector warmth = device.ByWarmth(one.temperature_C - other.temperature_C);
+  for (int q = 0; q < kScaleQuantities; ++q) logs[q] += light[q] + warmth[q];
+  return Difference(logs, LogsOf(one.planned));
+}
+
+// Judges the strings of one combiner.
+class GroupJudge {
+ public:
+  GroupJudge(const std::vector<ScaleMember>& group, const std::vector<ScaleResidual>& residuals,
+             const ScaleErrors& errors, double level)
+      : group_(group), residuals_(residuals), errors_(errors), level_(level) {}
+
+  Judged Judge(std::size_t i) const {
+    Judged judged = JudgeOwn(i);
+    if (judged.verdict.cause != ScaleCause::kNone) return judged;
+    if (!group_[i].IsPlanned() || residuals_[i].peers == 0) return judged;
+    ScaleContext context = ContextOf(group_[i], residuals_[i]);
+    context.shared = true;
+    const ScaleErrors plan = {kPlanErrors, kPlanDegrees};
+    const ScaleVector& common = residuals_[i].common;
+    if (HealthyPValue(common, plan) >= level_) return judged;
+    const ScaleVerdict verdict = JudgeScale(common, plan, HypothesesFor(context), level_);
+    if (verdict.cause == ScaleCause::kNone) return judged;
+    return {verdict, common, true, ""};
+  }
+
+ private:
+  // Errors of a string without peers are those of the plan too.
+  ScaleErrors ErrorsFor(std::size_t i) const {
+    if (residuals_[i].peers > 0) return errors_;
+    ScaleErrors errors = {kPlanErrors, kPlanDegrees};
+    for (int q = 0; q < kScaleQuantities; ++q) {
+      errors.sizes[q] = std::hypot(errors.sizes[q], errors_.sizes[q]);
+    }
+    return errors;
+  }
+
+  const ScaleVector& DeviationOf(std::size_t i) const {
+    return residuals_[i].peers > 0 ? residuals_[i].deviation : residuals_[i].residual;
+  }
+
+  bool CanJudge(std::size_t i) const {
+    return group_[i].IsMeasured() && group_[i].own_cause.empty() &&
+           (residuals_[i].peers > 0 || group_[i].IsPlanned());
+  }
+
+  // Other strings of the combiner whose plan this one fits, and which fit the plan of this one.
+  std::vector<std::size_t> PartnersOf(std::size_t i) const {
+    std::vector<std::size_t> partners;
+    for (std::size_t j = 0; j < group_.size(); ++j) {
+      const bool other = j != i && CanJudge(j) && group_[j].IsPlanned() == group_[i].IsPlanned() &&
+                         !SamePlan(group_[i], group_[j]) &&
+                         HealthyPValue(DeviationOf(j), ErrorsFor(j)) < level_;
+      if (!other) continue;
+      const auto fits = [&](std::size_t one, std::size_t of) {
+        const ScaleVector shift = BuiltAs(group_[of], group_[one]);
+        return HealthyPValue(Difference(DeviationOf(one), shift), ErrorsFor(one)) > kExchangedFit;
+      };
+      if (fits(i, j) && fits(j, i)) partners.push_back(j);
+    }
+    return partners;
+  }
+
+  Judged JudgeOwn(std::size_t i) const {
+    Judged judged;
+    if (!CanJudge(i)) return judged;
+    judged.deviation = DeviationOf(i);
+    const ScaleErrors errors = ErrorsFor(i);
+    judged.verdict.p_value = HealthyPValue(judged.deviation, errors);
+    if (!(judged.verdict.p_value < level_)) return judged;
+    std::vector<ScaleHypothesis> hypotheses = HypothesesFor(ContextOf(group_[i], residuals_[i]));
+    const std::vector<std::size_t> partners = PartnersOf(i);
+    if (!partners.empty()) {
+      const std::size_t partner = partners.front();
+      const bool clear = partners.size() == 1 && PartnersOf(partner).size() == 1;
+      ScaleHypothesis exchanged;
+      exchanged.cause = ScaleCause::kExchangedStrings;
+      exchanged.shift = BuiltAs(group_[partner], group_[i]);
+      double sum = 0;
+      for (const ScaleHypothesis& one : hypotheses) {
+        if (one.cause != ScaleCause::kNone) sum += one.prior;
+      }
+      exchanged.prior = (clear ? kExchangedOdds : kUnclearOdds) * sum;
+      hypotheses.push_back(exchanged);
+      judged.partner = group_[partner].id;
+    }
+    judged.verdict = JudgeScale(judged.deviation, errors, hypotheses, level_);
+    return judged;
+  }
+
+  const std::vector<ScaleMember>& group_;
+  const std::vector<ScaleResidual>& residuals_;
+  const ScaleErrors& errors_;
+  const double level_;
+};
+
+double Percent(double logarithm) { return 100 * std::expm1(logarithm); }
+
+ResultCell NamesCell(const std::vector<ScaleCause>& causes) {
+  std::vector<std::string> names;
+  names.reserve(causes.size());
+  for (const ScaleCause cause : causes) names.emplace_back(ToText(cause));
+  return ListCell(names);
+}
+
+// Watts that the string gives less than without its cause, at the light of the sweep.
+double LostWatts(const Judged& judged, const ScaleMember& member) {
+  const ScaleCause cause = judged.verdict.cause;
+  const std::string about = TextOf(cause).about;
+  if (about == "conditions" || cause == ScaleCause::kExchangedStrings ||
+      cause == ScaleCause::kExtraModule) {
+    return 0;
+  }
+  const bool any_form = cause == ScaleCause::kWrongModuleType;
+  const ScaleVector& shift = any_form ? judged.deviation : judged.verdict.mean.shift;
+  const double power = shift[kScaleIsc] + shift[kScaleVoc] + shift[kScaleFill];
+  return member.measured.imp_A * member.measured.vmp_V * std::expm1(-power);
+}
+
+std::vector<ResultCell> CellsOf(const Judged& judged, const ScaleMember& member) {
+  const ScaleVerdict& verdict = judged.verdict;
+  const bool known = std::isfinite(judged.deviation[kScaleVoc]);
+  std::vector<ResultCell> cells;
+  if (verdict.cause == ScaleCause::kNone) {
+    cells.resize(6);
+    if (!member.own_cause.empty()) {
+      cells[3] =
+          TextCell("not judged by its scale, since the curve itself shows " + member.own_cause);
+    }
+  } else {
+    ScaleSize size{verdict.mean.size,
+                   verdict.mean.count,
+                   verdict.mean.of,
+                   Percent(judged.deviation[kScaleIsc]),
+                   Percent(judged.deviation[kScaleVoc]),
+                   judged.partner};
+    const bool named = verdict.cause != ScaleCause::kSomethingElse;
+    cells.push_back(named ? TextCell(ToText(verdict.cause)) : ResultCell());
+    cells.push_back(named ? TextCell(TextOf(verdict.cause).title) : ResultCell());
+    cells.push_back(named ? TextCell(TextOf(verdict.cause).about) : ResultCell());
+    cells.push_back(TextCell(SentenceOf(verdict.cause, size, judged.shared)));
+    cells.push_back(NamesCell(verdict.alternatives));
+    std::vector<std::string> tests;
+    if (!verdict.alternatives.empty()) tests.emplace_back(TextOf(verdict.cause).separate);
+    for (const ScaleCause alternative : verdict.alternatives) {
+      const std::string test = TextOf(alternative).separate;
+      if (std::find(tests.begin(), tests.end(), test) == tests.end()) tests.push_back(test);
+    }
+    cells.push_back(ListCell(tests, "; "));
+  }
+  const bool named =
+      verdict.cause != ScaleCause::kNone && verdict.cause != ScaleCause::kSomethingElse;
+  cells.push_back(named ? TextCell(TextOf(verdict.cause).action) : ResultCell());
+  cells.push_back(named ? NumberCell(verdict.probability) : ResultCell());
+  cells.push_back(named ? NumberCell(LostWatts(judged, member)) : ResultCell());
+  cells.push_back(named ? ResultCell(judged.shared) : ResultCell());
+  cells.push_back(known && member.own_cause.empty() ? NumberCell(verdict.p_value) : ResultCell());
+  for (const double value : judged.deviation) cells.push_back(NumberCell(Percent(value)));
+  return cells;
+}
+
+}  // namespace
+
+std::vector<ResultColumn> ScaleColumns() {
+  constexpr CellType kText = CellType::kText;
+  constexpr CellType kNumber = CellType::kNumber;
+  return {
+      {"plan_cause", "", kText,
+       "the fault by which the string differs from its plan and its neighbours in scale, the most "
+       "probable: missing_module, bypassed_substring, reversed_module, disconnected_string, "
+       "wrong_module_type, extra_module, cable_resistance, uniform_soiling, light_sensor, "
+       "temperature_sensor, exchanged_strings; none: nothing beyond the errors, or nothing that "
+       "one "
+       "of these explains"},
+      {"plan_cause_title", "", kText, "the same in a few words"},
+      {"plan_cause_about", "", kText,
+       "what it belongs to: device; conditions, for a sensor; plan, for a list to be corrected"},
+      {"plan_sentence", "", kText, "the same for a technician, with its size"},
+      {"plan_equivalents", "", kText, "causes that the readings cannot tell from it"},
+      {"plan_separate_by", "", kText, "measurements that would, with '; ' between them"},
+      {"plan_action", "", kText, "the next thing to do about it"},
+      {"plan_probability", "", kNumber, "of the cause, against all others"},
+      {"plan_lost_W", "W", kNumber,
+       "what the string gives less than without the cause, in the light of the sweep"},
+      {"plan_shared", "", CellType::kTruth, "all strings of the combiner have it"},
+      {"plan_p", "", kNumber, "p-value of the difference of a healthy string"},
+      {"plan_Isc_percent", "%", kNumber,
+       "short-circuit current per light against the plan or the median of the combiner, what all "
+       "its "
+       "strings share taken off unless plan_shared"},
+      {"plan_Voc_percent", "%", kNumber, "open-circuit voltage in the same way"},
+      {"plan_FF_percent", "%", kNumber, "fill factor in the same way"},
+      {"plan_Vmp_percent", "%", kNumber,
+       "voltage at maximum power in parts of Voc in the same way"},
+      {"plan_slope_percent", "%", kNumber, "slope times Isc / Voc in the same way"},
+  };
+}
+
+std::vector<std::vector<ResultCell>> ScaleCells(const std::vector<ScaleMember>& group,
+                                                const std::vector<ScaleResidual>& residuals,
+                                                const ScaleErrors& errors, double level) {
+  const GroupJudge judge(group, residuals, errors, level);
+  std::vector<std::vector<ResultCell>> cells;
+  for (std::size_t i = 0; i < group.size(); ++i) cells.push_back(CellsOf(judge.Judge(i), group[i]));
+  return cells;
+}
+
+}  // namespace lyrefit

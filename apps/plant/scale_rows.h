@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/batch/addition.h"
+#include "plant/additions.h"
+#include "plant/scale_judge.h"
+
+namespace lyrefit {
+
+// The members of a group of rows.
+class ScaleReader {
+ public:
+  explicit ScaleReader(const std::vector<ResultColumn>& columns);
+  // Whether the rows have what the comparison needs: those of WithPlan.
+  bool reads() const { return reads_; }
+  ScaleMember Read(const ResultRow& row) const;
+
+ private:
+  enum Known {
+    kId,
+    kLight,
+    kTemperature,
+    kCells,
+    kIsc,
+    kVoc,
+    kImp,
+    kVmp,
+    kSlope,
+    kModule,
+    kModules,
+    kStrings,
+    kDiodes,
+    kPlanCells,
+    kPlanIsc,
+    kPlanVoc,
+    kPlanImp,
+    kPlanVmp,
+    kPlanSlope,
+    kCause,
+    kAbout,
+    kKnown
+  };
+  std::array<std::size_t, kKnown> places_{};
+  bool reads_ = false;
+};
+
+// Adds the judgement of the scale to rows that have what it needs.
+class ScaleAddition final : public BatchAddition {
+ public:
+  explicit ScaleAddition(PlantResults* results) : results_(results) {}
+
+  Expected<void> Open(const RowsInput& input) override;
+  std::vector<ResultColumn> Columns() const override;
+  void Learn(const RowGroup& group) override;
+  Expected<void> Add(RowGroup* group) override;
+  AddedReport Report() const override;
+
+ private:
+  std::vector<std::vector<ScaleMember>> MembersOf(const RowGroup& group) const;
+
+  PlantResults* const results_;
+  // What is learned of one run.
+  std::optional<ScaleReader> reader_;  // empty: the rows lack what is needed
+  double level_ = 0;
+  ScaleScatter scatter_;
+  std::int64_t rows_ = 0;
+  std::map<std::string, std::int64_t> causes_;  // number of rows for each
+};
+
+}  // namespace lyrefit

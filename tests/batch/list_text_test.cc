@@ -1,4 +1,4 @@
-#include "lyrefit/stream/list_text.h"
+#include "lyrefit/stream/row_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,9 +6,9 @@
 
 #include "certify/made.h"
 #include "error_of.h"
-#include "lyrefit/certify/as_diodes.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/floor.h"
+#include "lyrefit/certify/mixture.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
 #include "lyrefit/settings/bounds_file.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
-#include "lyrefit/certify/measured_relaxation.h"
+#include "lyrefit/certify/relaxation.h"
 #include "repeats.h"
 
 namespace lyrefit {

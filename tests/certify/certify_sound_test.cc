@@ -5,7 +5,7 @@
 #include "certify/made.h"
 #include "error_of.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/certify/tail_bound.h"
+#include "lyrefit/certify/relaxation.h"
 #include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/refine/refine.h"

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
+#include "lyrefit/certify/box.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/correlation.h"
 #include "lyrefit/certify/part_bound.h"
 #include "lyrefit/certify/real_data.h"
-#include "lyrefit/certify/safe_values.h"
-#include "lyrefit/certify/tail_bound.h"
+#include "lyrefit/certify/relaxation.h"
 #include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"

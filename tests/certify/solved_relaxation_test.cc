@@ -4,7 +4,7 @@
 
 #include "certify/made.h"
 #include "lyrefit/certify/branch.h"
-#include "lyrefit/certify/mixture_law.h"
+#include "lyrefit/certify/mixture.h"
 #include "lyrefit/certify/solved_part.h"
 #include "repeats.h"
 

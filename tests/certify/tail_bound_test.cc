@@ -1,4 +1,4 @@
-#include "lyrefit/certify/tail_bound.h"
+#include "lyrefit/certify/relaxation.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include "family/sample_family.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/family/family_documents.h"
-#include "lyrefit/report/figure_html.h"
+#include "lyrefit/report/html_parts.h"
 #include "lyrefit/report/plots.h"
 #include "sample_report.h"
 

@@ -3,7 +3,7 @@
 
 #include "diagnose/sample_diagnosis.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
-#include "lyrefit/report/figure_html.h"
+#include "lyrefit/report/html_parts.h"
 #include "lyrefit/report/plots.h"
 #include "sample_report.h"
 #include "well_formed.h"

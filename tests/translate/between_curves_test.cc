@@ -1,4 +1,4 @@
-#include "lyrefit/translate/between_curves.h"
+#include "lyrefit/translate/procedure_steps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

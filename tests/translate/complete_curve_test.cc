@@ -1,4 +1,4 @@
-#include "lyrefit/translate/complete_curve.h"
+#include "lyrefit/translate/procedure_steps.h"
 
 #include <gtest/gtest.h>
 

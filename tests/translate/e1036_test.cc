@@ -1,4 +1,4 @@
-#include "lyrefit/translate/e1036.h"
+#include "lyrefit/translate/procedure_steps.h"
 
 #include <gtest/gtest.h>
 

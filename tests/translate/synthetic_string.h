@@ -8,7 +8,7 @@
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/translate/device_coefficients.h"
-#include "lyrefit/translate/model_procedures.h"
+#include "lyrefit/translate/procedure_steps.h"
 #include "lyrefit/translate/procedures.h"
 
 namespace lyrefit {

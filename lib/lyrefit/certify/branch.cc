@@ -5,7 +5,7 @@
 #include <queue>
 
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/certify/as_diodes.h"
+#include "lyrefit/certify/mixture.h"
 
 namespace lyrefit {
 namespace {

@@ -22,7 +22,7 @@ struct BranchEnd {
 struct BranchLimits {
   double rs_lower = 0;
   double rs_upper = 0;  // may be infinite if `rs_cut` is finite
-  // From this Rs on, the order of the points may prove the bound (tail_bound.h). Larger Rs are
+  // From this Rs on, the order of the points may prove the bound (relaxation.h). Larger Rs are
   // divided only where it does not.
   double rs_cut = kInfinity;
   double rs_divided = kInfinity;  // larger Rs are not divided; they keep their tail bound

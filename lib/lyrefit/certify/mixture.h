@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
@@ -100,5 +101,37 @@ Mixture SolveMixture(const MixtureData& data, const std::vector<Window>& windows
 
 // The diode column a(u) at junction voltages vd, for any Vs > 0.
 Eigen::VectorXd DiodeColumn(const Eigen::VectorXd& vd, double scale_voltage_V, double u);
+
+// The current of a mixture as a function of the junction voltage. It is concave, and falls wherever
+// its leak terms do not rise. The linear terms must be the same at all points (one curve).
+class MixtureLaw {
+ public:
+  MixtureLaw(const MixtureData& data, const Mixture& mixture);
+  double Current(double vd) const;
+  double Slope(double vd) const;  // - dI / dVd, >= 0
+  // The current at the terminal voltage V, the root of I = Current(V + I rs), for rs >= 0.
+  double Solve(double voltage_V, double rs) const;
+
+ private:
+  double constant_ = 0;
+  double per_volt_ = 0;
+  double reference_voltage_V_ = 0;
+  std::vector<Atom> atoms_;
+};
+
+// The solved currents of a mixture at the voltages of the data and at its own Rs.
+Eigen::VectorXd SolvedCurrents(const MixtureData& data, const Mixture& mixture);
+
+struct DiodeValues {
+  double u = 0;  // 1 / (n Ns Vt), in 1/V
+  double saturation_A = 0;
+};
+
+// Returns the diodes of a model that equals the mixture: one per window, in the order of `windows`,
+// with u and Is inside that window. Several diodes may share one atom of the mixture. A diode whose
+// Is may be 0 may have no atom; it then carries no current. Returns none if no such model exists,
+// or if an Is is below 1e-305 A.
+std::optional<std::vector<DiodeValues>> AsDiodes(const Mixture& mixture,
+                                                 const std::vector<Window>& windows);
 
 }  // namespace lyrefit

@@ -68,4 +68,41 @@ class Relaxation {
 // A merged window has the summed ranges of Is of its diodes.
 std::vector<Window> Union(std::vector<Window> windows);
 
+// Relaxation of the measured-current problem of mixture.h. Between two neighbouring Rs the
+// interpolated dual vectors of both ends prove a lower bound for every Rs between them. They are
+// feasible up to second order in the distance, and the infeasibility is subtracted as a penalty.
+class MeasuredRelaxation : public Relaxation {
+ public:
+  // `data` must outlive this object. With `rigorous`, rounding cannot raise a bound above the
+  // truth.
+  explicit MeasuredRelaxation(const MixtureData& data, bool rigorous = false)
+      : data_(data), rigorous_(rigorous) {}
+  MixturePtr At(const std::vector<Window>& windows, double rs, const std::vector<Atom>& start,
+                Incumbent* incumbent) const override;
+  void Bound(const BranchPart* parent, BranchPart* part, Incumbent* incumbent) const override;
+  double Beyond(double rs) const override;
+  bool SplitsWindows(const BranchPart& part, double target) const override {
+    return part.ends < target || !(part.rs1 > part.rs0);
+  }
+  double Scale() const override;
+  Eigen::Index Points() const override { return data_.target_A.size(); }
+
+ private:
+  const MixtureData& data_;
+  bool rigorous_;
+};
+
+// Lower bound of half the sum of squares of every mixture with a series resistance of `rs` (ohm) or
+// more. A model's current never rises with the junction voltage V + I Rs. Points of rising current
+// that have rising junction voltages at `rs` have them at all larger Rs. A model then fits such a
+// chain of points no better than their mean does. The bound is the sum over chains. With `Real`
+// Interval rounding cannot raise it above the truth.
+template <class Real = double>
+double BoundTail(const MixtureData& data, double rs);
+
+// Tail bound of the solved-current problem, from the single worst pair of points. The solved
+// current never rises with the terminal voltage, and falls by no more than the voltage rises over
+// Rs.
+double BoundTailSolved(const MixtureData& data, double rs);
+
 }  // namespace lyrefit

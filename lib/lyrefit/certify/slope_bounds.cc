@@ -1,4 +1,4 @@
-#include "lyrefit/certify/slope_bounds.h"
+#include "lyrefit/certify/solved_part.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/certify/mixture_law.h"
+#include "lyrefit/certify/mixture.h"
+#include "lyrefit/certify/relaxation.h"
 #include "lyrefit/certify/solved_part.h"
-#include "lyrefit/certify/tail_bound.h"
 
 namespace lyrefit {
 namespace {

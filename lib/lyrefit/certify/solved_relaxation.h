@@ -24,7 +24,7 @@ namespace lyrefit {
 //   |r|^2 / 2 >= D - sum over points of h |r' - y| |y| + (h y)^2 / 2,   h >= |e| / (1 - |e|).
 //
 // Only mixtures as good as the best one known need bounding. Their currents are known to within its
-// residuals, and so are their slopes (slope_bounds.h), which bounds e. Where r' is close to the
+// residuals, and so are their slopes (solved_part.h), which bounds e. Where r' is close to the
 // dual vector y, the loss is of second order in e. There e itself is small, because Rs times slopes
 // is known to within the noise.
 class SolvedRelaxation : public Relaxation {

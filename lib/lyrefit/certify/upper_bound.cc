@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/certify/as_diodes.h"
-#include "lyrefit/certify/mixture_law.h"
+#include "lyrefit/certify/mixture.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
+#include "lyrefit/base/groups.h"
 #include "lyrefit/report/figure_parts.h"
 
 namespace lyrefit {
@@ -174,6 +176,122 @@ std::string FigureScript(const Figure& figure, const std::string& terminal, Plot
     if (p == 0) script += "unset colorbox\n";
   }
   return script + "unset multiplot\n";
+}
+
+namespace {
+
+// Rows of a whole figure that make an SVG of one megabyte. A mark takes ten times the bytes of a
+// corner of a line.
+constexpr std::size_t kMostMarksDrawn = 3 * kMostMarks;
+constexpr std::size_t kMostCorners = 4 * kMostMarks;
+
+bool HasMarks(const Series& series) {
+  return series.kind == SeriesKind::kPoints || series.kind == SeriesKind::kLineAndPoints;
+}
+
+// Largest length of each stretch for a total of at most `most`; short stretches are kept whole.
+std::size_t ShareOf(std::size_t most, std::vector<std::size_t> sizes) {
+  std::sort(sizes.begin(), sizes.end());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const std::size_t each = most / (sizes.size() - i);
+    if (sizes[i] > each) return each;
+    most -= sizes[i];
+  }
+  return kAllRows;
+}
+
+// Thinned rows from `begin` to `end`. Distances in x are logarithmic on a logarithmic axis.
+std::vector<FigureRow> Stretch(const Panel& panel, const Series& series, std::size_t begin,
+                               std::size_t end, std::size_t most) {
+  const auto at = [&series](std::size_t i) { return series.rows.begin() + static_cast<long>(i); };
+  if (end - begin <= most) return {at(begin), at(end)};
+  std::vector<double> x, y;
+  for (std::size_t i = begin; i < end; ++i) {
+    x.push_back(panel.x.log ? std::log(series.rows[i][0]) : series.rows[i][0]);
+    y.push_back(series.rows[i][1]);
+  }
+  std::vector<FigureRow> rows;
+  for (const std::size_t i : MarksToDraw(x, y, std::max<std::size_t>(most, 4))) {
+    rows.push_back(series.rows[begin + i]);
+  }
+  return rows;
+}
+
+}  // namespace
+
+MostRows MostOf(const Figure& figure) {
+  std::vector<std::size_t> marks, corners;
+  for (const Panel& panel : figure.panels) {
+    for (const Series& series : panel.series) {
+      std::vector<std::size_t>& sizes = HasMarks(series) ? marks : corners;
+      std::size_t begin = 0;
+      for (const std::size_t end : series.ends) {
+        sizes.push_back(end - begin);
+        begin = end;
+      }
+      sizes.push_back(series.rows.size() - begin);
+    }
+  }
+  return {ShareOf(kMostMarksDrawn, std::move(marks)), ShareOf(kMostCorners, std::move(corners))};
+}
+
+std::vector<std::vector<FigureRow>> RowsToDraw(const Panel& panel, const Series& series,
+                                               const MostRows& most) {
+  std::size_t each = HasMarks(series) ? most.marks : most.corners;
+  if (series.kind == SeriesKind::kStems) each = std::min(each, most.marks);  // drawn with marks
+  const bool whole = series.kind == SeriesKind::kBox || series.kind == SeriesKind::kBars ||
+                     series.kind == SeriesKind::kCells;
+  if (whole) each = kAllRows;  // quartiles require all rows; a bar without its neighbours is a gap
+  std::vector<std::vector<FigureRow>> stretches;
+  std::size_t begin = 0;
+  for (const std::size_t end : series.ends) {
+    stretches.push_back(Stretch(panel, series, begin, end, each));
+    begin = end;
+  }
+  stretches.push_back(Stretch(panel, series, begin, series.rows.size(), each));
+  return stretches;
+}
+
+std::vector<std::size_t> MarksToDraw(const std::vector<double>& x, const std::vector<double>& y,
+                                     std::size_t most) {
+  const std::size_t count = std::min(x.size(), y.size());
+  std::vector<std::size_t> places(count);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  if (count <= most) return places;
+  places.erase(
+      std::remove_if(places.begin(), places.end(),
+                     [&](std::size_t i) { return !std::isfinite(x[i]) || !std::isfinite(y[i]); }),
+      places.end());
+  if (places.size() <= most) return places;
+  const auto by_x = [&x](std::size_t a, std::size_t b) { return x[a] < x[b]; };
+  const auto [left, right] = std::minmax_element(places.begin(), places.end(), by_x);
+  const double begin = x[*left];
+  const double span = x[*right] - begin;
+  const std::size_t last_bin = (most - 2) / 4;
+  const auto last = static_cast<double>(last_bin);
+  std::vector<double> bins;
+  bins.reserve(places.size());
+  for (const std::size_t i : places) {
+    bins.push_back(span > 0 ? std::floor((x[i] - begin) / span * last) : 0);
+  }
+  std::vector<std::size_t> by_bin;
+  GroupRule rule;
+  for (const int k : RisingOrder(bins)) {
+    by_bin.push_back(places[k]);
+    rule.place.push_back(bins[k]);
+  }
+  const Grouping first = GroupByRule(static_cast<int>(by_bin.size()), rule);
+  std::vector<std::size_t> kept = {places.front(), places.back()};
+  const auto by_y = [&y](std::size_t a, std::size_t b) { return y[a] < y[b]; };
+  // Four points for each bin: the lowest, the highest and two typical ones.
+  for (int g = 0; g < GroupCount(first); ++g) {
+    const auto from = by_bin.begin() + first[g], to = by_bin.begin() + first[g + 1];
+    const auto [lowest, highest] = std::minmax_element(from, to, by_y);
+    kept.insert(kept.end(), {*lowest, *highest, from[(to - from) / 3], from[2 * (to - from) / 3]});
+  }
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  return kept;
 }
 
 }  // namespace lyrefit

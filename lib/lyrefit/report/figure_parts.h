@@ -37,14 +37,14 @@ std::string GnuplotText(const std::string& text);
 // More marks are indistinguishable, and a picture of them would have many megabytes.
 constexpr std::size_t kMostMarks = 2000;
 
-// thin_marks.cc: indices of about `most` points (at least 4) that look like all of them. They are
+// figure.cc: indices of about `most` points (at least 4) that look like all of them. They are
 // the first and last point and, in equal steps of x, the lowest and highest y and two points
 // between. Rising; all indices if there are at most that many points, else without points that are
 // not finite.
 std::vector<std::size_t> MarksToDraw(const std::vector<double>& x, const std::vector<double>& y,
                                      std::size_t most = kMostMarks);
 
-// figure_rows.cc: largest numbers of rows to draw, for each stretch of joined rows.
+// figure.cc: largest numbers of rows to draw, for each stretch of joined rows.
 constexpr std::size_t kAllRows = std::numeric_limits<std::size_t>::max();
 struct MostRows {
   std::size_t marks = kAllRows;

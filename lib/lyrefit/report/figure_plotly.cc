@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "lyrefit/report/figure_html.h"
 #include "lyrefit/report/figure_parts.h"
+#include "lyrefit/report/html_parts.h"
 #include "lyrefit/report/plotly_parts.h"
 
 namespace lyrefit {

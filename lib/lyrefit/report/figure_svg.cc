@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/report/figure_html.h"
 #include "lyrefit/report/figure_parts.h"
 #include "lyrefit/report/html_parts.h"
 

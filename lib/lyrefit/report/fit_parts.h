@@ -32,7 +32,7 @@ void AddAssumed(const std::vector<std::string>& sentences, Section* section);
 // A part of Isc such as ", 0.10 % of Isc"; empty if Isc is unknown.
 std::string PartOfIsc(double rmse_A, double isc_A);
 
-// fit_figure_block.cc: the picture of a fit for pages, with a caption and a table of its numbers. A
+// fit_plot.cc: the picture of a fit for pages, with a caption and a table of its numbers. A
 // figure without panels if there is nothing to draw.
 block::Figure FigureBlock(const FitReport& report);
 

@@ -81,7 +81,7 @@ double RoundCelsius(double celsius);
 Json SetLawJson(const std::vector<EffectUse>& with, const CurveSet& set,
                 const DeviceEffects* shared);
 
-// json_fit.cc
+// json.cc
 Json FitJson(const FitReport& report, JsonPoints points);
 
 }  // namespace lyrefit

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/report/figure_html.h"
 #include "lyrefit/report/html_parts.h"
 #include "lyrefit/report/page_shell.h"
 

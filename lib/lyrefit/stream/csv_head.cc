@@ -17,7 +17,6 @@
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/read/text_encoding.h"
 #include "lyrefit/stream/json_row.h"
-#include "lyrefit/stream/list_text.h"
 #include "lyrefit/stream/row_names.h"
 
 namespace lyrefit {

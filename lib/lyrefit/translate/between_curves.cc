@@ -1,4 +1,4 @@
-#include "lyrefit/translate/between_curves.h"
+#include "lyrefit/translate/procedure_steps.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/translate/complete_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -14,7 +14,7 @@
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/reporting_units.h"
-#include "lyrefit/translate/model_procedures.h"
+#include "lyrefit/translate/procedure_steps.h"
 
 namespace lyrefit {
 namespace {

@@ -1,4 +1,4 @@
-#include "lyrefit/translate/model_procedures.h"
+#include "lyrefit/translate/procedure_steps.h"
 
 #include <cmath>
 #include <cstdint>

@@ -13,10 +13,9 @@
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/translate/complete_curve.h"
 #include "lyrefit/translate/extended_model.h"
 #include "lyrefit/translate/field_inputs.h"
-#include "lyrefit/translate/model_procedures.h"
+#include "lyrefit/translate/procedure_steps.h"
 
 namespace lyrefit {
 namespace {

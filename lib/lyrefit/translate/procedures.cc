@@ -7,11 +7,8 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/translate/between_curves.h"
-#include "lyrefit/translate/complete_curve.h"
-#include "lyrefit/translate/e1036.h"
 #include "lyrefit/translate/extended_model.h"
-#include "lyrefit/translate/model_procedures.h"
+#include "lyrefit/translate/procedure_steps.h"
 
 namespace lyrefit {
 namespace {

@@ -164,7 +164,7 @@ struct PreparedCurve {
   double noise_A = 0;                  // standard deviation of a reading's current
   std::optional<BetaAnchor> bandgap;   // De Soto's; none: as stated
   std::optional<BetaAnchor> mu_gamma;  // PVsyst's; none: as stated
-  // Both laws for `cells_in_series` (model_procedures.h); nullptr: rebuilt at every call.
+  // Both laws for `cells_in_series` (procedure_steps.h); nullptr: rebuilt at every call.
   std::shared_ptr<const Translation> desoto;
   std::shared_ptr<const Translation> pvsyst;
   // The diagnosis first, then one model for each equivalent cause.

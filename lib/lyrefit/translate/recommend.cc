@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/translate/between_curves.h"
 #include "lyrefit/translate/extended_model.h"
+#include "lyrefit/translate/procedure_steps.h"
 
 namespace lyrefit {
 namespace {

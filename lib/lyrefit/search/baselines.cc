@@ -1,7 +1,8 @@
 // Differential evolution DE/rand/1/bin (Storn and Price 1997, doi:10.1023/A:1008202821328). Two
 // choices of this library: acceptance is greedy and in place, and mutants are clamped to the box,
 // as in lyrebird.cc.
-
+// Uniform random search, the baseline of every comparison of metaheuristics. Slot i of the
+// population keeps the best of its own draws, from which the elites are taken.
 #include <algorithm>
 
 #include "lyrefit/base/random.h"
@@ -44,6 +45,20 @@ void RunDifferentialEvolution(SearchRun* run, const SearchOptions& options) {
       }
       const double value = run->Evaluate(trial.data());
       if (value <= run->f(i)) run->Replace(i, trial.data(), value);
+    }
+    run->EndIteration(t, options.iterations);
+  }
+}
+
+void RunRandom(SearchRun* run, const SearchOptions& options) {
+  RandomStream random(options.seed, options.run);
+  DrawPopulation(run, &random, options.iterations);
+  std::vector<double> x(run->dimensions());
+  for (std::int64_t t = 1; !run->stopped(); ++t) {
+    for (int i = 0; i < run->population() && !run->stopped(); ++i) {
+      DrawPoint(run->box(), &random, x.data());
+      const double value = run->Evaluate(x.data());
+      if (value < run->f(i)) run->Replace(i, x.data(), value);
     }
     run->EndIteration(t, options.iterations);
   }

@@ -89,12 +89,12 @@ inline TrendReport SampleTrend(int days) {
           {kSampleStart_s + day * kDay_s, lost + 0.01 * day, kUnknown, 6});
     }
   }
-  TrendOnset onset = {"resistance_series", step.time_s, step.earliest_s, step.latest_s, 0.6, {}};
-  onset.cause.id = "step_series_resistance";
-  onset.cause.title = "a step of the series resistance";
-  onset.cause.sentence = "a connector, a clamp or an interconnect changed";
-  onset.cause.action = "check connectors";
-  report.onsets = {onset};
+  TrendOnset growing = {"resistance_series", step.time_s, step.earliest_s, step.latest_s, 0.6, {}};
+  growing.cause.id = "step_series_resistance";
+  growing.cause.title = "a step of the series resistance";
+  growing.cause.sentence = "a connector, a clamp or an interconnect changed";
+  growing.cause.action = "check connectors";
+  report.onsets = {growing};
   report.verdict =
       "Since the reference the device gave 3.1 % (2.9 to 3.4) less energy than it "
       "would have given unchanged.";

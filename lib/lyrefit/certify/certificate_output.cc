@@ -17,30 +17,19 @@ void to_json(Json& j, const DiodeRanges& diode) {
 }
 
 void to_json(Json& j, const Floor& floor) {
-  j = {{"rmse_A", floor.rmse_A},
-       {"lower_bound_A", floor.lower_bound_A},
-       {"gap", floor.gap},
-       {"certified", floor.certified},
-       {"photocurrent", floor.photocurrent_A},
-       {"resistance_series", floor.resistance_series_ohm},
-       {"conductance_shunt", floor.conductance_shunt_S},
-       {"diodes", floor.diodes},
-       {"duality_gap", floor.duality_gap},
-       {"largest_correlation", floor.largest_correlation},
-       {"dual_A", floor.dual_A},
-       {"junction_voltage_V", floor.junction_voltage_V},
-       {"problems_solved", floor.solved}};
+  LYREFIT_PUT_FIELDS(j, floor, rmse_A, lower_bound_A, gap, certified);
+  j["photocurrent"] = floor.photocurrent_A;
+  j["resistance_series"] = floor.resistance_series_ohm;
+  j["conductance_shunt"] = floor.conductance_shunt_S;
+  LYREFIT_PUT_FIELDS(j, floor, diodes, duality_gap, largest_correlation, dual_A,
+                     junction_voltage_V);
+  j["problems_solved"] = floor.solved;
 }
 
 void to_json(Json& j, const ModelCertificate& model) {
-  j = {{"model", model.model},
-       {"rmse_A", model.rmse_A},
-       {"lower_bound_A", model.lower_bound_A},
-       {"gap", model.gap},
-       {"above_floor", model.above_floor},
-       {"certified", model.certified},
-       {"problems_solved", model.solved},
-       {"parameters", Json::object()}};
+  LYREFIT_PUT_FIELDS(j, model, model, rmse_A, lower_bound_A, gap, above_floor, certified);
+  j["problems_solved"] = model.solved;
+  j["parameters"] = Json::object();
   const Device device = MakeDevice(model.model, {});
   for (int i = 0; i < device.size(); ++i) {
     Json& parameter = j["parameters"][ParameterKey(device.parameters[i])] = device.parameters[i];

@@ -15,25 +15,15 @@ LYREFIT_JSON_FIELDS(ReferenceComparison, name, differs, p_value, sentence, rows,
                     left_out, regressed_on, common, warnings)
 
 void to_json(Json& j, const Evidence& evidence) {
-  j = {{"kind", evidence.kind},
-       {"noise",
-        {{"constant_A", evidence.noise_constant_A},
-         {"relative", evidence.noise_relative},
-         {"voltage_V", evidence.noise_voltage_V},
-         {"dark_A", evidence.noise_dark_A},
-         {"stated_A", evidence.noise_stated_A},
-         {"path_A", evidence.noise_path_A}}},
-       {"misfit_ratio", evidence.misfit_ratio},
-       {"autocorrelation", evidence.autocorrelation},
-       {"grid_step_A", evidence.grid_step_A},
-       {"grid_step_V", evidence.grid_step_V},
-       {"clipped_points", evidence.clipped_points},
-       {"clip_level_A", evidence.clip_level_A},
-       {"largest_error", LargestErrorJson(evidence.residuals)},
-       {"residuals", evidence.residuals},
-       {"whiteness_p_value", evidence.whiteness_p_value},
-       {"whiteness_after_p_value", evidence.whiteness_after_p_value},
-       {"findings", evidence.findings}};
+  j["kind"] = evidence.kind;
+  j["noise"] =
+      Json{{"constant_A", evidence.noise_constant_A}, {"relative", evidence.noise_relative},
+           {"voltage_V", evidence.noise_voltage_V},   {"dark_A", evidence.noise_dark_A},
+           {"stated_A", evidence.noise_stated_A},     {"path_A", evidence.noise_path_A}};
+  LYREFIT_PUT_FIELDS(j, evidence, misfit_ratio, autocorrelation, grid_step_A, grid_step_V,
+                     clipped_points, clip_level_A);
+  j["largest_error"] = LargestErrorJson(evidence.residuals);
+  LYREFIT_PUT_FIELDS(j, evidence, residuals, whiteness_p_value, whiteness_after_p_value, findings);
 }
 
 namespace {
@@ -55,43 +45,19 @@ Json CauseParametersJson(const std::string& effect, const std::vector<CauseParam
 }  // namespace
 
 void to_json(Json& j, const Trial& trial) {
-  j = {{"effect", trial.effect},
-       {"title", trial.title},
-       {"tried", trial.tried},
-       {"why_not", trial.tried ? Json() : Json(trial.why_not)},
-       {"rmse_A", trial.rmse_A},
-       {"misfit", trial.misfit},
-       {"log_evidence", trial.log_evidence},
-       {"probability", trial.probability},
-       {"probability_material", trial.probability_material},
-       {"delta_aicc", trial.delta_aicc},
-       {"held_out_rmse_A", trial.held_out_rmse_A},
-       {"kept", trial.kept},
-       {"parameters", CauseParametersJson(trial.effect, trial.parameters)}};
+  LYREFIT_PUT_FIELDS(j, trial, effect, title, tried);
+  j["why_not"] = trial.tried ? Json() : Json(trial.why_not);
+  LYREFIT_PUT_FIELDS(j, trial, rmse_A, misfit, log_evidence, probability, probability_material,
+                     delta_aicc, held_out_rmse_A, kept);
+  j["parameters"] = CauseParametersJson(trial.effect, trial.parameters);
 }
 
 void to_json(Json& j, const Cause& cause) {
-  j = {{"id", cause.id},
-       {"effect", cause.effect},
-       {"title", cause.title},
-       {"sentence", cause.sentence},
-       {"in_words", cause.in_words},
-       {"current_effect", cause.current_effect},
-       {"power_effect", cause.power_effect},
-       {"recoverable_power_W", cause.recoverable_power_W},
-       {"at_least", cause.at_least},
-       {"probability", cause.probability},
-       {"alternatives", cause.alternatives},
-       {"mechanisms", cause.mechanisms},
-       {"group", cause.group},
-       {"action", cause.action},
-       {"fact_sheet", cause.fact_sheet},
-       {"equivalents", cause.equivalents},
-       {"separate_by", cause.separate_by},
-       {"parameters", CauseParametersJson(cause.effect, cause.strength)},
-       {"evidence", cause.evidence},
-       {"acts", cause.acts},
-       {"points", cause.points}};
+  LYREFIT_PUT_FIELDS(j, cause, id, effect, title, sentence, in_words, current_effect, power_effect,
+                     recoverable_power_W, at_least, probability, alternatives, mechanisms, group,
+                     action, fact_sheet, equivalents, separate_by);
+  j["parameters"] = CauseParametersJson(cause.effect, cause.strength);
+  LYREFIT_PUT_FIELDS(j, cause, evidence, acts, points);
 }
 
 LYREFIT_JSON_FIELDS(ResistanceLoss, part, usual, most, beyond_W, rise)
@@ -101,14 +67,11 @@ LYREFIT_JSON_FIELDS(Verdict, found, unexplained, sentence, causes, below_floor, 
                     recoverable_power_W, cannot_be_excluded, not_shown)
 
 void to_json(Json& j, const DeviceFinding& finding) {
-  j = {{"id", finding.id},
-       {"symbol", finding.symbol},
-       {"value", finding.value.value},
-       {"low_95", finding.value.low_95},
-       {"high_95", finding.value.high_95},
-       {"healthy_limit", finding.healthy_limit},
-       {"power_loss", finding.power_loss},
-       {"sentence", finding.sentence}};
+  LYREFIT_PUT_FIELDS(j, finding, id, symbol);
+  j["value"] = finding.value.value;
+  j["low_95"] = finding.value.low_95;
+  j["high_95"] = finding.value.high_95;
+  LYREFIT_PUT_FIELDS(j, finding, healthy_limit, power_loss, sentence);
   const Cause cause = CauseOf(finding);
   j["title"] = cause.title;
   j["about"] = cause.group;
@@ -124,17 +87,9 @@ void to_json(Json& j, const ParameterShift& shift) {
 }
 
 void to_json(Json& j, const Gain& gain) {
-  j = {{"rmse_before_A", gain.rmse_before_A},
-       {"rmse_after_A", gain.rmse_after_A},
-       {"held_out_before_A", gain.held_out_before_A},
-       {"held_out_after_A", gain.held_out_after_A},
-       {"held_out_gain_A2", gain.held_out_gain_A2},
-       {"held_out_gain_error_A2", gain.held_out_gain_error_A2},
-       {"folds", gain.folds},
-       {"by_sweeps", gain.by_sweeps},
-       {"gain", gain.gain},
-       {"sentence", gain.sentence},
-       {"parameter_shift", gain.shifts}};
+  LYREFIT_PUT_FIELDS(j, gain, rmse_before_A, rmse_after_A, held_out_before_A, held_out_after_A,
+                     held_out_gain_A2, held_out_gain_error_A2, folds, by_sweeps, gain, sentence);
+  j["parameter_shift"] = gain.shifts;
 }
 
 void to_json(Json& j, const JudgedSetup& setup) {
@@ -142,11 +97,9 @@ void to_json(Json& j, const JudgedSetup& setup) {
 }
 
 void to_json(Json& j, const DiagnosedCurve& curve) {
-  j = {{"name", curve.name},
-       {"irradiance_Wm2", curve.irradiance_W_m2},
-       {"temperature_C", curve.temperature_C},
-       {"dark", curve.dark},
-       {"points", curve.points}};
+  j["name"] = curve.name;
+  j["irradiance_Wm2"] = curve.irradiance_W_m2;
+  LYREFIT_PUT_FIELDS(j, curve, temperature_C, dark, points);
 }
 
 namespace {
@@ -172,20 +125,11 @@ Json PointsJson(const std::vector<DiagnosedPoint>& points) {
 }  // namespace
 
 void to_json(Json& j, const Diagnosis& diagnosis) {
-  j = {{"lyrefit_version", diagnosis.version},
-       {"name", diagnosis.name},
-       {"source", diagnosis.source},
-       {"base", diagnosis.base},
-       {"base_sentence", diagnosis.base_sentence},
-       {"objective", Objective::kSolvedCurrent},
-       {"seed", diagnosis.seed},
-       {"probability", diagnosis.probability},
-       {"floor_current", diagnosis.floor_current},
-       {"floor_power", diagnosis.floor_power},
-       {"setup", diagnosis.setup},
-       {"verdict", diagnosis.verdict},
-       {"device_findings", diagnosis.device_findings},
-       {"gain", diagnosis.gain}};
+  j["lyrefit_version"] = diagnosis.version;
+  LYREFIT_PUT_FIELDS(j, diagnosis, name, source, base, base_sentence);
+  j["objective"] = Objective::kSolvedCurrent;
+  LYREFIT_PUT_FIELDS(j, diagnosis, seed, probability, floor_current, floor_power, setup, verdict,
+                     device_findings, gain);
   j["evidence"] = diagnosis.evidence;
   j["trials"] = diagnosis.trials;
   j["non_default_options"] = diagnosis.non_default_options;

@@ -15,26 +15,22 @@ void to_json(Json& j, const Interval& interval) {
 }
 
 void to_json(Json& j, const FamilyErrors& errors) {
-  j = {{"kind", errors.kind},
-       {"current_noise_A", errors.sizes.readings.current_A},
-       {"voltage_noise_V", errors.sizes.readings.voltage_V},
-       {"path_of_isc", errors.sizes.readings.path},
-       {"path_power_of_light", errors.path_power},
-       {"curve_irradiance_part", errors.sizes.irradiance},
-       {"curve_temperature_K", errors.sizes.temperature_K},
-       {"judge", errors.judge},
-       {"tested_curves", errors.tested_curves},
-       {"gain", errors.gain}};
+  j["kind"] = errors.kind;
+  j["current_noise_A"] = errors.sizes.readings.current_A;
+  j["voltage_noise_V"] = errors.sizes.readings.voltage_V;
+  j["path_of_isc"] = errors.sizes.readings.path;
+  j["path_power_of_light"] = errors.path_power;
+  j["curve_irradiance_part"] = errors.sizes.irradiance;
+  j["curve_temperature_K"] = errors.sizes.temperature_K;
+  LYREFIT_PUT_FIELDS(j, errors, judge, tested_curves, gain);
 }
 
 void to_json(Json& j, const HeldOut& held_out) {
-  j = {{"how", held_out.how},
-       {"curves", held_out.curves},
-       {"rmse", held_out.rmse},
-       {"median_solved_current_A", held_out.median_rmse_A},
-       {"largest_solved_current_A", held_out.largest_rmse_A},
-       {"largest_id", held_out.largest_id},
-       {"median_individual_solved_current_A", held_out.median_individual_rmse_A}};
+  LYREFIT_PUT_FIELDS(j, held_out, how, curves, rmse);
+  j["median_solved_current_A"] = held_out.median_rmse_A;
+  j["largest_solved_current_A"] = held_out.largest_rmse_A;
+  j["largest_id"] = held_out.largest_id;
+  j["median_individual_solved_current_A"] = held_out.median_individual_rmse_A;
 }
 
 void to_json(Json& j, const Against& against) {
@@ -45,46 +41,32 @@ void to_json(Json& j, const Against& against) {
 }
 
 void to_json(Json& j, const FamilyCandidate& c) {
-  j = {{"law", c.law},
-       {"model", c.model},
-       {"rmse", c.rmse},
-       {"held_out_solved_current_A", c.held_out_rmse_A},
-       {"held_out_median_solved_current_A", c.held_out_median_A},
-       {"behind_best_standard_errors", c.behind_best},
-       {"free_parameters", c.free_parameters},
-       {"chosen", c.chosen}};
+  LYREFIT_PUT_FIELDS(j, c, law, model, rmse);
+  j["held_out_solved_current_A"] = c.held_out_rmse_A;
+  j["held_out_median_solved_current_A"] = c.held_out_median_A;
+  j["behind_best_standard_errors"] = c.behind_best;
+  LYREFIT_PUT_FIELDS(j, c, free_parameters, chosen);
 }
 
 void to_json(Json& j, const RejectedCurve& curve) {
   j = {{"id", curve.id}, {"error", curve.error.ToString()}};
 }
 
-void to_json(Json& j, const KeyPointFit& fit) {
-  j = {
-      {"measured", fit.measured}, {"model", fit.model}, {"held_out_power_W", fit.held_out_power_W}};
-}
+LYREFIT_JSON_FIELDS(KeyPointFit, measured, model, held_out_power_W)
 
-void to_json(Json& j, const KeyPointErrors& errors) {
-  j = {{"short_circuit_current", errors.short_circuit_current},
-       {"open_circuit_voltage", errors.open_circuit_voltage},
-       {"max_power_voltage", errors.max_power_voltage},
-       {"max_power", errors.max_power}};
-}
+LYREFIT_JSON_FIELDS(KeyPointErrors, short_circuit_current, open_circuit_voltage, max_power_voltage,
+                    max_power)
 
 void to_json(Json& j, const KeyPointSummary& summary) {
-  j = {{"errors", summary.errors},
-       {"scale", summary.scale},
-       {"rms",
-        {{"short_circuit_current", summary.short_circuit_current},
-         {"open_circuit_voltage", summary.open_circuit_voltage},
-         {"max_power_current", summary.max_power_current},
-         {"max_power_voltage", summary.max_power_voltage},
-         {"max_power", summary.max_power},
-         {"max_power_of_reference", summary.max_power_of_reference},
-         {"held_out_max_power_of_reference", summary.held_out_max_power_of_reference}}},
-       {"reference_power_W", summary.reference_power_W},
-       {"held_out", summary.held_out},
-       {"covered", summary.covered}};
+  LYREFIT_PUT_FIELDS(j, summary, errors, scale);
+  j["rms"] = Json{{"short_circuit_current", summary.short_circuit_current},
+                  {"open_circuit_voltage", summary.open_circuit_voltage},
+                  {"max_power_current", summary.max_power_current},
+                  {"max_power_voltage", summary.max_power_voltage},
+                  {"max_power", summary.max_power},
+                  {"max_power_of_reference", summary.max_power_of_reference},
+                  {"held_out_max_power_of_reference", summary.held_out_max_power_of_reference}};
+  LYREFIT_PUT_FIELDS(j, summary, reference_power_W, held_out, covered);
 }
 
 namespace {

@@ -167,36 +167,25 @@ LYREFIT_JSON_FIELDS(ModelChoice, chosen, sentence, candidates)
 LYREFIT_JSON_FIELDS(InformationCriteria, points, parameters, aicc, bic)
 
 void to_json(Json& j, const FloorReport& floor) {
-  j = {{"objective", ToText(floor.objective)},
-       {"rmse_A", floor.rmse_A},
-       {"lower_bound_A", floor.lower_bound_A},
-       {"gap", floor.gap},
-       {"n_lower", floor.n_lower},
-       {"n_upper", floor.n_upper},
-       {"refined_above", floor.above},
-       {"minimised", floor.minimised}};
+  j["objective"] = ToText(floor.objective);
+  LYREFIT_PUT_FIELDS(j, floor, rmse_A, lower_bound_A, gap, n_lower, n_upper);
+  j["refined_above"] = floor.above;
+  j["minimised"] = floor.minimised;
 }
 
 void to_json(Json& j, const RefineReport& refine) {
-  j = {{"termination", refine.termination},
-       {"message", refine.message},
-       {"starts", refine.starts.size()},
-       {"agreeing", refine.agreeing},
-       {"winner", refine.winner < 0 ? Json() : Json(refine.winner)},
-       {"projected_gradient", refine.projected_gradient},
-       {"condition", refine.condition},
-       {"seconds", refine.seconds},
-       {"local_optima", refine.local_optima},
-       {"start_list", refine.starts}};
+  LYREFIT_PUT_FIELDS(j, refine, termination, message);
+  j["starts"] = refine.starts.size();
+  j["agreeing"] = refine.agreeing;
+  j["winner"] = refine.winner < 0 ? Json() : Json(refine.winner);
+  LYREFIT_PUT_FIELDS(j, refine, projected_gradient, condition, seconds, local_optima);
+  j["start_list"] = refine.starts;
 }
 
 void to_json(Json& j, const VariantReport& variant) {
-  j = {{"what", variant.what},
-       {"free", variant.free},
-       {"solved_current_rmse_A", variant.rmse_A},
-       {"bic_above", variant.bic_above},
-       {"finished", variant.finished},
-       {"chosen", variant.chosen}};
+  LYREFIT_PUT_FIELDS(j, variant, what, free);
+  j["solved_current_rmse_A"] = variant.rmse_A;
+  LYREFIT_PUT_FIELDS(j, variant, bic_above, finished, chosen);
 }
 
 namespace {

@@ -39,13 +39,17 @@ struct adl_serializer<
 
 }  // namespace nlohmann
 
-// Defines to_json of a record whose keys are the names of its fields.
-#define LYREFIT_JSON_FIELDS(Record, ...)                                     \
-  void to_json(Json& j, const Record& record) {                              \
-    Json& nlohmann_json_j = j;                                               \
-    const Record& nlohmann_json_t = record;                                  \
+// Puts fields of a record under their names into `json`.
+#define LYREFIT_PUT_FIELDS(json, record, ...)                                \
+  do {                                                                       \
+    Json& nlohmann_json_j = json;                                            \
+    const auto& nlohmann_json_t = record;                                    \
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__)) \
-  }
+  } while (false)
+
+// Defines to_json of a record whose keys are the names of its fields.
+#define LYREFIT_JSON_FIELDS(Record, ...) \
+  void to_json(Json& j, const Record& record) { LYREFIT_PUT_FIELDS(j, record, __VA_ARGS__); }
 
 namespace lyrefit {
 

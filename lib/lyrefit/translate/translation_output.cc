@@ -17,11 +17,9 @@ void to_json(Json& j, const TranslationInputs& inputs) {
 
 LYREFIT_JSON_FIELDS(TranslationTarget, irradiance_W_m2, temperature_C)
 void to_json(Json& j, const FieldNotes& notes) {
-  j = {{"tracer", notes.tracer},
-       {"serial", notes.serial},
-       {"calibration", notes.calibration},
-       {"operator", notes.operated_by},
-       {"remark", notes.remark}};
+  LYREFIT_PUT_FIELDS(j, notes, tracer, serial, calibration);
+  j["operator"] = notes.operated_by;
+  j["remark"] = notes.remark;
 }
 
 LYREFIT_JSON_FIELDS(CurvePoints, voltage_V, current_A)
@@ -33,18 +31,12 @@ LYREFIT_JSON_FIELDS(CheckedCondition, id, title, state, value, limit, unit, foun
 LYREFIT_JSON_FIELDS(Checklist, conditions, met, not_met, not_known, sentence)
 
 void to_json(Json& j, const UncertainOutput& output) {
-  j = {{"name", output.quantity.name},
-       {"unit", output.quantity.unit},
-       {"value", output.value},
-       {"standard_uncertainty", output.standard_uncertainty},
-       {"expanded_uncertainty", output.expanded_uncertainty},
-       {"low", output.low()},
-       {"high", output.high()},
-       {"drawn", output.drawn},
-       {"failed_draws", output.failed_draws},
-       {"tolerance", output.tolerance},
-       {"agreement", output.agreement},
-       {"sentence", output.sentence}};
+  j["name"] = output.quantity.name;
+  j["unit"] = output.quantity.unit;
+  LYREFIT_PUT_FIELDS(j, output, value, standard_uncertainty, expanded_uncertainty);
+  j["low"] = output.low();
+  j["high"] = output.high();
+  LYREFIT_PUT_FIELDS(j, output, drawn, failed_draws, tolerance, agreement, sentence);
 }
 
 namespace {
@@ -68,50 +60,30 @@ Json LineJson(const BudgetLine& line, const std::vector<UncertainOutput>& output
 }  // namespace
 
 void to_json(Json& j, const UncertaintyBudget& budget) {
-  j = {{"coverage_factor", budget.coverage_factor},
-       {"coverage_probability", budget.coverage_probability},
-       {"draws", budget.draws},
-       {"seed", budget.seed},
-       {"results", budget.outputs},
-       {"lines", Json::array()},
-       {"warnings", budget.warnings}};
+  LYREFIT_PUT_FIELDS(j, budget, coverage_factor, coverage_probability, draws, seed);
+  j["results"] = budget.outputs;
+  j["lines"] = Json::array();
+  j["warnings"] = budget.warnings;
   for (const BudgetLine& line : budget.lines) j["lines"].push_back(LineJson(line, budget.outputs));
 }
 
 void to_json(Json& j, const FieldTest& test) {
-  j = {{"rated_W", test.rated_W},
-       {"lowest_W", test.lowest_W},
-       {"highest_W", test.highest_W},
-       {"tolerance", test.tolerance},
-       {"standard_W", test.standard_W},
-       {"standard_low_W", test.standard_low_W},
-       {"standard_high_W", test.standard_high_W},
-       {"zone", test.zone},
-       {"pass", IsPass(test.zone)},
-       {"doubt", test.doubt},
-       {"probability_conforms", test.probability_conforms},
-       {"probability_wrong", test.probability_wrong},
-       {"probability_step", test.probability_step},
-       {"measured_W", test.measured_W},
-       {"predicted_W", test.predicted_W},
-       {"predicted_by", test.predicted_by},
-       {"performance_factor", test.performance_factor},
-       {"performance_low", test.performance_low},
-       {"performance_high", test.performance_high},
-       {"performance_budget", test.performance_budget},
-       {"sentence", test.sentence},
-       {"notes", test.notes}};
+  LYREFIT_PUT_FIELDS(j, test, rated_W, lowest_W, highest_W, tolerance, standard_W, standard_low_W,
+                     standard_high_W, zone);
+  j["pass"] = IsPass(test.zone);
+  LYREFIT_PUT_FIELDS(j, test, doubt, probability_conforms, probability_wrong, probability_step,
+                     measured_W, predicted_W, predicted_by, performance_factor, performance_low,
+                     performance_high, performance_budget, sentence, notes);
 }
 
 void to_json(Json& j, const TranslatedResult& result) {
-  j = {{"procedure", result.procedure},
-       {"title", result.title},
-       {"computed", result.computed()},
-       {"why_not", result.why_not},
-       {"key_points", nullptr},
-       {"extrapolated", result.extrapolated},
-       {"budget", nullptr},
-       {"points", nullptr}};
+  LYREFIT_PUT_FIELDS(j, result, procedure, title);
+  j["computed"] = result.computed();
+  j["why_not"] = result.why_not;
+  j["key_points"] = nullptr;
+  j["extrapolated"] = result.extrapolated;
+  j["budget"] = nullptr;
+  j["points"] = nullptr;
   if (!result.computed()) return;
   j["key_points"] = result.key_points;
   if (!result.budget.outputs.empty()) j["budget"] = result.budget;

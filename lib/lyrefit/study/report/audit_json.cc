@@ -18,41 +18,24 @@ void to_json(Json& j, const AuditTemperatures& temperatures) {
 }
 
 void to_json(Json& j, const AuditRow& row) {
-  j = {{"line", row.line},
-       {"source", row.source},
-       {"device", row.device},
-       {"model", row.model},
-       {"algorithm", row.algorithm},
-       {"note", row.note},
-       {"claimed",
-        {{"text", row.rmse.text},
-         {"sum_of_squares", row.sum_of_squares},
-         {"rmse_A", row.rmse.value},
-         {"half_unit_A", row.rmse.half_unit}}},
-       {"objective", row.objective},
-       {"temperature_C", row.temperature_C},
-       {"cells_in_series", row.cells},
-       {"constants", row.constants}};
+  LYREFIT_PUT_FIELDS(j, row, line, source, device, model, algorithm, note);
+  j["claimed"] = Json{{"text", row.rmse.text},
+                      {"sum_of_squares", row.sum_of_squares},
+                      {"rmse_A", row.rmse.value},
+                      {"half_unit_A", row.rmse.half_unit}};
+  LYREFIT_PUT_FIELDS(j, row, objective, temperature_C);
+  j["cells_in_series"] = row.cells;
+  j["constants"] = row.constants;
 }
 
 void to_json(Json& j, const AuditLowest& lowest) {
-  j = {{"objective", lowest.objective},
-       {"rmse_A", lowest.rmse_A},
-       {"lower_bound_A", lowest.lower_bound_A},
-       {"reached_A", lowest.reached_A},
-       {"n_lower", lowest.n_lower},
-       {"n_upper", lowest.n_upper},
-       {"other_objective_rmse_A", lowest.other_objective_A},
-       {"newton_step_rmse_A", lowest.newton_step_A}};
+  LYREFIT_PUT_FIELDS(j, lowest, objective, rmse_A, lower_bound_A, reached_A, n_lower, n_upper);
+  j["other_objective_rmse_A"] = lowest.other_objective_A;
+  j["newton_step_rmse_A"] = lowest.newton_step_A;
 }
 
 // A row that could not be read.
-void to_json(Json& j, const Error& error) {
-  j = {{"message", error.message},
-       {"file", error.file},
-       {"line", error.line},
-       {"column", error.column}};
-}
+LYREFIT_JSON_FIELDS(Error, message, file, line, column)
 
 namespace {
 

@@ -36,16 +36,13 @@ void to_json(Json& j, const LevelSummary& level) {
 
 // Levels that an algorithm does not have are null.
 void to_json(Json& j, const AlgorithmSummary& compared) {
-  j = {{"name", compared.name},
-       {"algorithm", compared.algorithm},
-       {"kind", compared.kind},
-       {"budget", compared.budget > 0 ? Json(compared.budget) : Json()},
-       {"evaluations", compared.evaluations},
-       {"curve_evaluations", compared.curve_evaluations},
-       {"searched", compared.At(PolishLevel::kSearch)},
-       {"plain_polished", compared.At(PolishLevel::kPlain)},
-       {"refined_best_candidate", compared.At(PolishLevel::kOwn)},
-       {"refined", compared.At(PolishLevel::kHybrid)}};
+  LYREFIT_PUT_FIELDS(j, compared, name, algorithm, kind);
+  j["budget"] = compared.budget > 0 ? Json(compared.budget) : Json();
+  LYREFIT_PUT_FIELDS(j, compared, evaluations, curve_evaluations);
+  j["searched"] = compared.At(PolishLevel::kSearch);
+  j["plain_polished"] = compared.At(PolishLevel::kPlain);
+  j["refined_best_candidate"] = compared.At(PolishLevel::kOwn);
+  j["refined"] = compared.At(PolishLevel::kHybrid);
 }
 
 namespace {

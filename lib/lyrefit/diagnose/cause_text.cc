@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lyrefit/diagnose/effect_size.h"
+#include "lyrefit/effects/fitted_effect.h"
 
 namespace lyrefit {
 namespace {

@@ -65,7 +65,7 @@ bool IsWanted(const Effect& effect, const DiagnoseOptions& options) {
 
 const char* WhyExcluded(const Effect& effect, const DiagnoseOptions& options) {
   const bool asked = !options.effects.empty() || options.priors.given.count(effect.id) != 0;
-  return asked ? nullptr : WhyNotThere(effect.id, options.priors.where);
+  return asked ? nullptr : WhyNotThere(effect, options.priors.where);
 }
 
 std::vector<const Effect*> Candidates(const std::vector<const Effect*>& known,

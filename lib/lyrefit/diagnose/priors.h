@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,36 +9,12 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/model/effect.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What is known of a measurement beside its readings that makes causes more or less common.
-struct Circumstances {
-  Setup setup = Setup::kUnknown;
-  bool module = false;                   // more than one cell in series
-  bool slow = false;                     // its times show that a sweep took half a second or more
-  std::string technology = {};           // as stated; empty: unknown
-  std::optional<double> age_years = {};  // of the device in the field
-};
-
-// A change of an effect's prior (Effect::prior) where more is known than that a sweep was taken in the
-// field.
-struct PriorFactor {
-  const char* id;                             // of the effect
-  bool (*holds)(const Circumstances& where);  // where it counts
-  double factor;                              // of its prior; 0: the cause cannot be there
-  const char* source;                         // on what it rests; of 0 why not, said in reports
-};
-
-// The changes; those that hold at once multiply. As the priors they are orders of magnitude: their
-// sources order causes, and do not count sweeps. The evidence of a fault above the floors is usually
-// larger by far, so that a factor of three changes few verdicts.
-const std::vector<PriorFactor>& PriorFactorTable();
-
 // Why a cause cannot be there in these circumstances; null: it can.
-const char* WhyNotThere(const std::string& id, const Circumstances& where);
+const char* WhyNotThere(const Effect& effect, const Circumstances& where);
 
 // Prior probabilities of causes.
 struct CausePriors {

@@ -24,7 +24,12 @@ Effect AgedContacts() {
   e.action =
       "look for dark fingers and ribbons in an electroluminescence image, and at the ribbons for "
       "corrosion; nothing repairs it, and it grows";
-  e.prior = {0.001, 0.01, kFaultPrior};
+  e.prior = {0.001,
+             0.01,
+             kFaultPrior,
+             {{OfThinFilm, 0.3, "thin films have no fingers that corrode: T13-01, section 5"},
+              {AsNew, 0.1, kInfantPrior},
+              {OfOldAge, 3, kWornPrior}}};
   e.parameters = {Parameter("Rc", "contact_resistance",
                             "of the aged part beside Rs, as if the whole device were behind it")
                       .Unit("ohm")

@@ -76,7 +76,14 @@ Effect BypassOpen() {
   e.action = "open the junction box and test the bypass diodes";
   e.fact_sheet = "PVFS 1-15";
   e.is_wiring = true;
-  e.prior = {0.003, 0.006, kFaultPrior};
+  static constexpr char kBesideUnlike[] =
+      "an open diode shows only beside cells that give less, and these are rarer than in shade";
+  e.prior = {0.003,
+             0.006,
+             kFaultPrior,
+             {{InFlasher, 0.2, kBesideUnlike},
+              {ModuleInLaboratory, 0.1, kBesideUnlike},
+              {OfOldAge, 2, kWornPrior}}};
   e.in_words = [](const FittedEffect& of) -> Phrases {
     return {fmt::format("{} under {} of the others' light, and no bypass diode leads around it",
                         PartOfCells(of.readings, of.p[1]), LightLeft(of.p[0], of.Of("d")))};

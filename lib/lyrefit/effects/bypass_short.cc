@@ -20,7 +20,7 @@ Effect BypassShort() {
   e.is_wiring = true;
   e.found_by = FoundBy::kValues;
   e.why_not = NeedsModule;
-  e.prior = {0.01, 0.01, kFaultPrior};
+  e.prior = {0.01, 0.01, kFaultPrior, {{OfOldAge, 2, kWornPrior}}};
   return e;
 }
 

@@ -22,7 +22,12 @@ Effect Capacitance() {
   e.separate_by =
       "two sweep speeds: this current is in proportion to the speed; a turn at another voltage";
   e.action = "repeat the sweep five times slower";
-  e.prior = {0.03, 0.03, kTracerPrior};
+  e.prior = {0.03,
+             0.03,
+             kTracerPrior,
+             {{SlowOutdoors, 0,
+               "a sweep of half a second or more is slower than cells charge (friesen1997)"},
+              {Heterojunction, 3, "the charge of a junction grows with exp(Voc): friesen1997"}}};
   e.parameters = {
       Parameter("C0", "capacitance", "of the whole device")
           .Unit("F")

@@ -26,7 +26,7 @@ Effect CloudEdge() {
       "repeat the sweep: a cloud does not come back at the same voltage; a reference cell beside "
       "the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
-  e.prior = {0.001, 0.005, kSkyPrior};
+  e.prior = {0.001, 0.005, kSkyPrior, {{InFlasher, 0, kPulsePrior}}};
   e.in_words = [](const FittedEffect& of) -> Phrases {
     return {fmt::format("near {:.4g} V the light went over to another level: it {}",
                         VoltageAtMoment(of), LightChange(of.Of("s"), of.Most(0), " than before"))};

@@ -192,7 +192,10 @@ Effect CoveredEdge() {
   e.separate_by = "clean the module, or compare the short-circuit current with the light";
   e.fact_sheet = "PVFS 3-3";
   e.action = "look for snow, dirt or a shadow along an edge of the module and clear it";
-  e.prior = {0.08, 0.08, kShadePrior};
+  e.prior = {0.08,
+             0.08,
+             kShadePrior,
+             {{InFlasher, 0.05, kUnlikePrior}, {ModuleInLaboratory, 0.02, kRoomPrior}}};
   e.in_words = CoveredEdgeInWords;
   e.parameters = CoveredEdgeParameters();
   e.cell = [](const auto* p, auto* cell) { SetCoveredEdge(p, cell); };

@@ -18,7 +18,7 @@ Effect Drift() {
   e.confused_with = {"temp_drift", "irr_step", "collection"};
   e.separate_by = "a sweep up and down, or a reference cell beside the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
-  e.prior = {0.01, 0.01, kSkyPrior};
+  e.prior = {0.01, 0.01, kSkyPrior, {{InFlasher, 0, kPulsePrior}}};
   e.in_words = [](const FittedEffect& of) -> Phrases {
     return {"at the end of the sweep the light " +
             LightChange(of.Of("d"), of.Most(0), " than at its begin")};

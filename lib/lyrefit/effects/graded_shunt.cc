@@ -56,7 +56,7 @@ Effect GradedShunt() {
   e.fact_sheet = "PVFS 1-10";
   e.action =
       "measure the insulation and look at the string by night with an electroluminescence camera";
-  e.prior = {0.02, 0.02, kFaultPrior};
+  e.prior = {0.02, 0.02, kFaultPrior, {{AsNew, 0.1, kInfantPrior}}};
   e.in_words = [](const FittedEffect& of) -> Phrases {
     return {fmt::format(
         "at 0.5 V the cells lose {:.2g} % of Isc on average, most at one end of the string",

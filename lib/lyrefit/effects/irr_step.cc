@@ -24,7 +24,10 @@ Effect IrradianceStep() {
       "repeat the sweep: a cloud does not come back at the same voltage; a reference cell beside "
       "the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
-  e.prior = {0.003, 0.02, kLampPrior};
+  e.prior = {0.003,
+             0.02,
+             kLampPrior,
+             {{InFlasher, 0, kPulsePrior}, {ModuleInLaboratory, 0.15, kLaboratoryLampPrior}}};
   e.in_words = [](const FittedEffect& of) -> Phrases {
     for (const Reading& reading : of.readings.points) {
       if (reading.x <= of.p[1]) continue;

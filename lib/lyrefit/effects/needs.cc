@@ -1,5 +1,9 @@
 #include "lyrefit/effects/needs.h"
 
+#include <string_view>
+
+#include "lyrefit/curve/technology.h"
+
 namespace lyrefit {
 
 WhyNot NeedsLight(const DataTraits& traits) {
@@ -59,6 +63,20 @@ WhyNot NeedsIrradiances(const DataTraits& traits) {
 WhyNot NeedsTemperatures(const DataTraits& traits) {
   if (traits.temperature_levels < 2) return "needs curves at several temperatures";
   return {};
+}
+
+bool InFlasher(const Circumstances& at) { return at.setup == Setup::kFlash; }
+bool InInverter(const Circumstances& at) { return at.setup == Setup::kInverter; }
+bool SlowOutdoors(const Circumstances& at) { return at.setup == Setup::kOutdoor && at.slow; }
+bool ModuleInLaboratory(const Circumstances& at) {
+  return at.setup == Setup::kLaboratory && at.module;
+}
+bool AsNew(const Circumstances& at) { return at.age_years && *at.age_years < 1; }
+bool OfOldAge(const Circumstances& at) { return at.age_years && *at.age_years > 10; }
+bool OfThinFilm(const Circumstances& at) { return at.module && IsThinFilm(at.technology); }
+bool Heterojunction(const Circumstances& at) {
+  const Technology* const known = FindTechnology(at.technology);
+  return known != nullptr && known->name == std::string_view("HJT");
 }
 
 std::vector<Probe> Strengths(const std::vector<double>& values) {

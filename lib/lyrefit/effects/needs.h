@@ -39,6 +39,31 @@ inline constexpr char kSkyPrior[] = "moving clouds: a few in a hundred sweeps of
 inline constexpr char kLampPrior[] = "clouds, seldom gone within a sweep; lamps falter less";
 inline constexpr char kTracerPrior[] = "properties of tracers, per instrument";
 
+// Where factors of priors count (PriorFactor).
+bool InFlasher(const Circumstances& at);
+bool InInverter(const Circumstances& at);
+bool SlowOutdoors(const Circumstances& at);
+bool ModuleInLaboratory(const Circumstances& at);
+bool AsNew(const Circumstances& at);     // less than a year in the field
+bool OfOldAge(const Circumstances& at);  // more than ten years
+bool OfThinFilm(const Circumstances& at);
+bool Heterojunction(const Circumstances& at);
+
+// On what the factors of several effects rest.
+inline constexpr char kPulsePrior[] =
+    "the light of a flash is held or recorded within milliseconds";
+inline constexpr char kUnlikePrior[] =
+    "nothing shades a flasher: cells that give less, as common as weak cells";
+inline constexpr char kRoomPrior[] = "nothing shades a laboratory unless it is put there";
+inline constexpr char kLaboratoryLampPrior[] = "lamps falter less than the sky: as in cells";
+inline constexpr char kRegistersPrior[] = "registers of an inverter hold whole steps";
+inline constexpr char kInfantPrior[] =
+    "IEA PVPS T13-01:2014, section 6: infant failures are glass, interconnects and handling; "
+    "corrosion and potential-induced degradation take years";
+inline constexpr char kWornPrior[] =
+    "IEA PVPS T13-01:2014, section 6, and Jordan et al. 2017, doi:10.1002/pip.2866: corrosion, "
+    "interconnects and diodes of modules over ten years";
+
 // Probes of one parameter each.
 std::vector<Probe> Strengths(const std::vector<double>& values);
 

@@ -18,7 +18,10 @@ Effect NonohmicShunt() {
   e.confused_with = {"collection", "breakdown", "second_diode"};
   e.separate_by = "a dark curve or points in reverse bias: this part does not scale with light";
   e.action = "take a dark curve, then look at the module with a thermal camera for a leaking spot";
-  e.prior = {0.03, 0.0003, "not rare in cells; in all cells of a module alike: thin films"};
+  e.prior = {0.03,
+             0.0003,
+             "not rare in cells; in all cells of a module alike: thin films",
+             {{OfThinFilm, 30, "non-ohmic shunts are in every thin film (dongaonkar2010)"}}};
   // Internal units: the strength is the current at the largest voltage of the readings.
   e.parameters = {
       Parameter("k", "shunt_strength", "current at 1 V of a cell")

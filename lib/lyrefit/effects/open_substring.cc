@@ -78,7 +78,7 @@ Effect OpenSubstring() {
   e.separate_by =
       "a thermal image: the bypass diodes of the open substrings are hot; a shorted diode is cold";
   e.action = "open the junction box and look for a broken connection of a substring";
-  e.prior = {0.005, 0.01, kFaultPrior};
+  e.prior = {0.005, 0.01, kFaultPrior, {{OfOldAge, 2, kWornPrior}}};
   e.in_words = [](const FittedEffect& of) -> Phrases {
     return {fmt::format("{} without current; the bypass diode drops {}",
                         PartOfCells(of.readings, of.p[0]), WithUnit(of.Of("Vb"), "V"))};

@@ -16,6 +16,7 @@ Effect Quantisation() {
   e.confused_with = {};
   e.separate_by = "a smaller range or a finer instrument";
   e.action = "repeat the sweep in a smaller range of the current";
+  e.prior.factors = {{InInverter, 0, kRegistersPrior}};
   e.found_by = FoundBy::kValues;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;

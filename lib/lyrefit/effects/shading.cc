@@ -97,7 +97,10 @@ Effect Shading() {
       "does too, and is found in the junction box, in the dark";
   e.action = "look for shade, snow or dirt on the darker part and clear it";
   e.fact_sheet = "PVFS 3-3";
-  e.prior = {0.1, 0.1, kShadePrior};
+  e.prior = {0.1,
+             0.1,
+             kShadePrior,
+             {{InFlasher, 0.2, kUnlikePrior}, {ModuleInLaboratory, 0.1, kRoomPrior}}};
   e.in_words = [](const FittedEffect& of) -> Phrases {
     return {fmt::format("{} under {} of the others' {}{}", PartOfCells(of.readings, of.p[1]),
                         LightLeft(of.p[0], of.Of("d")), of.light(), CoveredPart(of.p[3]))};

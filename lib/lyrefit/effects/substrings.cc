@@ -223,7 +223,10 @@ Effect Substrings() {
   e.separate_by = "repeat the sweep: shading stays at the same voltage, a cloud does not";
   e.action = "look for shade, snow or dirt on the darker parts and clear it";
   e.fact_sheet = "PVFS 3-3";
-  e.prior = {0.08, 0.08, kShadePrior};
+  e.prior = {0.08,
+             0.08,
+             kShadePrior,
+             {{InFlasher, 0.25, kUnlikePrior}, {ModuleInLaboratory, 0.1, kRoomPrior}}};
   e.in_words = SubstringsInWords;
   e.parameters = SubstringParameters();
   for (int k = 0; k < kGroups; ++k) e.alike.push_back({2 * k, 2 * k + 1});

@@ -17,7 +17,7 @@ Effect TemperatureDrift() {
   e.confused_with = {"drift", "timing_skew", "capacitance"};
   e.separate_by = "a sweep up and down; a shorter sweep";
   e.action = "repeat the sweep faster, after the module has settled in the light";
-  e.prior = {0.003, 0.003, kSkyPrior};
+  e.prior = {0.003, 0.003, kSkyPrior, {{InFlasher, 0, "a flash does not warm the cells"}}};
   e.in_words = [](const FittedEffect& of) -> Phrases {
     return {SignedSize(of.Of("r"), "K", "warmer", "colder") + " at the end than at the begin"};
   };

@@ -27,7 +27,10 @@ Effect Transient() {
   e.confused_with = {"shading", "back_contact", "rs_current", "nonohmic_shunt"};
   e.separate_by = "repeat the sweep; a reference cell beside the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
-  e.prior = {0.002, 0.005, kLampPrior};
+  e.prior = {0.002,
+             0.005,
+             kLampPrior,
+             {{InFlasher, 0, kPulsePrior}, {ModuleInLaboratory, 0.4, kLaboratoryLampPrior}}};
   e.in_words = [](const FittedEffect& of) -> Phrases {
     const Sized depth = of.Of("a");  // a loss
     return {fmt::format(

@@ -16,6 +16,7 @@ Effect VoltageBins() {
   e.confused_with = {"quantisation"};
   e.separate_by = "a smaller range of the voltage or a finer instrument";
   e.action = "repeat the sweep in a smaller range of the voltage";
+  e.prior.factors = {{InInverter, 0, kRegistersPrior}};
   e.found_by = FoundBy::kValues;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;

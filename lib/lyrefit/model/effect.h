@@ -12,6 +12,7 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/model/curve_shape.h"
+#include "lyrefit/model/effect_prior.h"
 #include "lyrefit/model/pack.h"
 #include "lyrefit/model/parameter.h"
 #include "lyrefit/model/plain_stage.h"
@@ -326,14 +327,6 @@ struct ShapeStart {
   Probe p;                 // start values
   std::vector<int> freed;  // parameters to fit although they are fixed by default
   double giving = 1;       // part of the cells that gives the open-circuit voltage
-};
-
-// How often an effect is in a sweep at a size that matters, in sweeps of the field: probabilities in
-// orders of magnitude. 0: not known, it counts like an effect of one's own.
-struct EffectPrior {
-  double in_cells = 0;      // in a sweep of a cell
-  double in_modules = 0;    // ... of a module
-  const char* source = "";  // on what the numbers rest
 };
 
 struct FittedEffect;  // effects/fitted_effect.h

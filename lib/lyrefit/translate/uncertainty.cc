@@ -10,7 +10,6 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/translate/agreement.h"
 #include "lyrefit/translate/linear_budget.h"
 
 namespace lyrefit {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "lyrefit/certify/certificate_documents.h"
-#include "lyrefit/certify/certificate_parts.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/estimate/fit/usable.h"
 #include "lyrefit/report/documents.h"
@@ -246,6 +245,47 @@ std::string Conclusion(const Certificate& certificate) {
   return text;
 }
 
+// Ideality factors evenly spaced in 1/n, as the exponents are, and those of the floor's diodes.
+std::vector<double> Idealities(const Certificate& certificate) {
+  constexpr int kSteps = 600;
+  const double low = 1 / certificate.options.n_upper;
+  const double high = 1 / certificate.options.n_lower;
+  std::vector<double> n;
+  for (int i = 0; i <= kSteps; ++i) n.push_back(1 / (low + (high - low) * i / kSteps));
+  for (const FloorDiode& diode : certificate.floor.diodes) n.push_back(diode.n);
+  std::sort(n.begin(), n.end());
+  return n;
+}
+
+// Cosines over n, in multiples of `unit`.
+Series Cosines(const Certificate& certificate, const std::vector<double>& n, double unit,
+               Series series) {
+  const std::vector<double> cosines = DualCosines(certificate, n);
+  for (std::size_t i = 0; i < n.size(); ++i) series.Add(n[i], cosines[i] / unit);
+  return series;
+}
+
+// The picture of the proof for pages, with a caption and a table of its numbers. A figure without
+// panels if there is nothing to draw.
+block::Figure FigureBlock(const Certificate& certificate) {
+  block::Figure shown;
+  if (certificate.floor.dual_A.empty()) return shown;
+  shown.caption =
+      "The proof of the floor: what a diode of each ideality could still gain. Nothing lies above "
+      "zero, and zero is reached only at the diodes of the floor.";
+  shown.figure = CertificateFigure(certificate);
+  block::Table table = {"rrr", {{"diode", "n", "cosine of dual vector and column"}}};
+  table.caption = "The diodes of the floor.";
+  std::vector<double> n;
+  for (const FloorDiode& diode : certificate.floor.diodes) n.push_back(diode.n);
+  const std::vector<double> cosines = DualCosines(certificate, n);
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    table.rows.push_back({std::to_string(i + 1), Significant(n[i], 8), Significant(cosines[i], 2)});
+  }
+  shown.readings = std::move(table);
+  return shown;
+}
+
 }  // namespace
 
 Document CertificateDocument(const Certificate& certificate) {
@@ -284,30 +324,6 @@ std::string BriefCertificate(const Certificate& certificate) {
   return text + "\n";
 }
 
-namespace {
-
-// Ideality factors evenly spaced in 1/n, as the exponents are, and those of the floor's diodes.
-std::vector<double> Idealities(const Certificate& certificate) {
-  constexpr int kSteps = 600;
-  const double low = 1 / certificate.options.n_upper;
-  const double high = 1 / certificate.options.n_lower;
-  std::vector<double> n;
-  for (int i = 0; i <= kSteps; ++i) n.push_back(1 / (low + (high - low) * i / kSteps));
-  for (const FloorDiode& diode : certificate.floor.diodes) n.push_back(diode.n);
-  std::sort(n.begin(), n.end());
-  return n;
-}
-
-// Cosines over n, in multiples of `unit`.
-Series Cosines(const Certificate& certificate, const std::vector<double>& n, double unit,
-               Series series) {
-  const std::vector<double> cosines = DualCosines(certificate, n);
-  for (std::size_t i = 0; i < n.size(); ++i) series.Add(n[i], cosines[i] / unit);
-  return series;
-}
-
-}  // namespace
-
 Figure CertificateFigure(const Certificate& certificate) {
   std::vector<double> diodes;
   for (const FloorDiode& diode : certificate.floor.diodes) diodes.push_back(diode.n);
@@ -329,25 +345,6 @@ Figure CertificateFigure(const Certificate& certificate) {
 
 Expected<void> PlotCertificate(const Certificate& certificate, const std::string& path) {
   return DrawFigure(CertificateFigure(certificate), path);
-}
-
-block::Figure FigureBlock(const Certificate& certificate) {
-  block::Figure shown;
-  if (certificate.floor.dual_A.empty()) return shown;
-  shown.caption =
-      "The proof of the floor: what a diode of each ideality could still gain. Nothing lies above "
-      "zero, and zero is reached only at the diodes of the floor.";
-  shown.figure = CertificateFigure(certificate);
-  block::Table table = {"rrr", {{"diode", "n", "cosine of dual vector and column"}}};
-  table.caption = "The diodes of the floor.";
-  std::vector<double> n;
-  for (const FloorDiode& diode : certificate.floor.diodes) n.push_back(diode.n);
-  const std::vector<double> cosines = DualCosines(certificate, n);
-  for (std::size_t i = 0; i < n.size(); ++i) {
-    table.rows.push_back({std::to_string(i + 1), Significant(n[i], 8), Significant(cosines[i], 2)});
-  }
-  shown.readings = std::move(table);
-  return shown;
 }
 
 }  // namespace lyrefit

@@ -10,7 +10,6 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/translate/agreement.h"
 #include "lyrefit/translate/linear_budget.h"
 
 namespace lyrefit {
@@ -142,18 +141,6 @@ void AddDraws(const UncertainModel& model, const UncertaintySources& sources, in
   }
 }
 
-CoverageInterval ShortestInterval(const std::vector<double>& rising, double probability) {
-  const std::size_t n = rising.size();
-  const auto inside = static_cast<std::size_t>(std::lround(probability * static_cast<double>(n)));
-  if (n == 0) return {};
-  if (inside >= n) return {rising.front(), rising.back()};
-  std::size_t best = 0;
-  for (std::size_t i = 0; i + inside < n; ++i) {
-    if (rising[i + inside] - rising[i] < rising[best + inside] - rising[best]) best = i;
-  }
-  return {rising[best], rising[best + inside]};
-}
-
 constexpr double kRounding = 1e-10;
 
 Expected<void> CheckSources(const UncertaintySources& sources, std::size_t outputs) {
@@ -179,6 +166,18 @@ Expected<void> CheckSources(const UncertaintySources& sources, std::size_t outpu
 }
 
 }  // namespace
+
+CoverageInterval ShortestInterval(const std::vector<double>& rising, double probability) {
+  const std::size_t n = rising.size();
+  const auto inside = static_cast<std::size_t>(std::lround(probability * static_cast<double>(n)));
+  if (n == 0) return {};
+  if (inside >= n) return {rising.front(), rising.back()};
+  std::size_t best = 0;
+  for (std::size_t i = 0; i + inside < n; ++i) {
+    if (rising[i + inside] - rising[i] < rising[best + inside] - rising[best]) best = i;
+  }
+  return {rising[best], rising[best + inside]};
+}
 
 Expected<UncertaintyBudget> Propagate(const UncertainModel& model,
                                       const UncertaintySources& sources,

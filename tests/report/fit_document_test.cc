@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "golden.h"
+#include "sample_fits.h"
 #include "sample_report.h"
 
 namespace lyrefit {
@@ -242,6 +243,13 @@ TEST(BriefReport, IsOneLine) {
   report.usable = false;
   report.not_usable_because = "the curve has a step near 25 V";
   add("not usable");
+  golden.Check();
+}
+
+TEST(FitsDocument, SaysWhatTheGoldenFileHas) {
+  Golden golden("fits");
+  golden.AddLong("three files, one of them broken", DrawText(FitsDocument(SampleFits())));
+  golden.Add("broken files alone", DrawText(FitsDocument({{"a.csv", Fail("empty")}})));
   golden.Check();
 }
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/enum_text.h"
-#include "lyrefit/batch/batch_task.h"
+#include "lyrefit/batch/column.h"
 #include "plant/campaign_words.h"
 
 namespace lyrefit {
@@ -50,97 +52,95 @@ CommonChange CommonChangeOf(const CampaignGroup& group) {
   return common;
 }
 
-void AppendFigureColumns(const std::string& figure, const std::string& of,
-                         std::vector<ResultColumn>* columns) {
-  const std::string name = fmt::format("change_{}_percent", figure);
-  columns->push_back({name, "%", CellType::kNumber, of});
-  columns->push_back({name + "_low_95", "%", CellType::kNumber, "its 95 % interval"});
-  columns->push_back({name + "_high_95", "%", CellType::kNumber, "its 95 % interval"});
+struct CampaignRow {
+  const CampaignChange& change;
+  ChangeTexts texts;
+  std::string partner;  // its id
+
+  // The own change of a ratio in percent.
+  Ranged Own(int q) const {
+    if (!HasChange(change)) return {};
+    const double own = change.own[q];
+    const double half = Half95(change, q);
+    return {Percent(own), Percent(own - half), Percent(own + half)};
+  }
+};
+
+ColumnList<CampaignRow> ChangeColumns() {
+  using Of = const CampaignRow&;
+  ColumnList<CampaignRow> columns = {
+      {"change_rank", "",
+       "place among the strings that changed since the earlier campaign, by watts lost; none: not "
+       "changed",
+       [](Of of) { return of.change.rank > 0 ? std::optional(of.change.rank) : std::nullopt; }},
+      {"change_kind", "",
+       "what changed: none, light, substrings, voltage, series_resistance, shunt_or_mismatch, "
+       "fill_factor, several, power, measurement, exchanged, renamed, new; none at all: not "
+       "compared",
+       [](Of of) {
+         return of.change.kind == CampaignKind::kNotCompared ? "" : ToText(of.change.kind);
+       }},
+      {"change_candidates", "", "ids of what it may be; the sweeps do not tell them apart",
+       [](Of of) { return of.texts.candidates; }},
+      {"change_partner", "", "the string it was exchanged with, or its earlier name",
+       &CampaignRow::partner},
+  };
+  AddRanged(
+      "change_lost_W", "W",
+      "power at standard conditions that was lost since the earlier campaign, less what its group "
+      "has in common; negative: gained",
+      [](Of of) {
+        return Ranged{of.change.lost_W, of.change.lost_low_W, of.change.lost_high_W};
+      },
+      &columns);
+  const int figures = static_cast<int>(kCampaignFigures.size());
+  for (int q = 0; q < figures; ++q) {
+    AddRanged(
+        fmt::format("change_{}_percent", kCampaignFigures[q]), "%",
+        fmt::format("{} at standard conditions since the earlier campaign, less what its "
+                    "group has in common",
+                    kCampaignFigures[q]),
+        [q](Of of) { return of.Own(q); }, &columns);
+  }
+  AddRanged(
+      "change_FF_adjusted_percent", "%",
+      "the same of FF, less what errors of light and temperature move together with Isc and Voc; "
+      "none where Isc or Voc changed",
+      [](Of of) { return of.change.adjusted ? of.Own(kAdjustedFill) : Ranged(); }, &columns);
+  for (int q = 0; q < figures; ++q) {
+    columns.emplace_back(
+        fmt::format("change_common_{}_percent", kCampaignFigures[q]), "%",
+        fmt::format("{}: what its group, else the plant, has in common: light, age or a sensor",
+                    kCampaignFigures[q]),
+        [q](Of of) {
+          const bool common =
+              HasChange(of.change) && of.change.reference != CampaignReference::kNothing;
+          return common ? Percent(of.change.common[q]) : kUnknown;
+        });
+  }
+  Append({{"change_against", "", "whose median is the common change: group, plant, or nothing",
+           [](Of of) { return HasChange(of.change) ? ToText(of.change.reference) : ""; }},
+          {"change_sentence", "", "the change in one sentence",
+           [](Of of) { return of.texts.sentence; }},
+          {"change_action", "", "the next thing to do about it",
+           [](Of of) { return of.texts.action; }}},
+         &columns);
+  return columns;
 }
 
 }  // namespace
 
-std::vector<ResultColumn> CampaignColumns() {
-  constexpr CellType kNumber = CellType::kNumber;
-  constexpr CellType kText = CellType::kText;
-  std::vector<ResultColumn> columns = {
-      {"change_rank", "", CellType::kWhole,
-       "place among the strings that changed since the earlier campaign, by watts lost; none: not "
-       "changed"},
-      {"change_kind", "", kText,
-       "what changed: none, light, substrings, voltage, series_resistance, shunt_or_mismatch, "
-       "fill_factor, several, power, measurement, exchanged, renamed, new; none at all: not "
-       "compared"},
-      {"change_candidates", "", kText, "ids of what it may be; the sweeps do not tell them apart"},
-      {"change_partner", "", kText, "the string it was exchanged with, or its earlier name"},
-      {"change_lost_W", "W", kNumber,
-       "power at standard conditions that was lost since the earlier campaign, less what its group "
-       "has in common; negative: gained"},
-      {"change_lost_W_low_95", "W", kNumber, "its 95 % interval"},
-      {"change_lost_W_high_95", "W", kNumber, "its 95 % interval"},
-  };
-  for (const char* figure : kCampaignFigures) {
-    AppendFigureColumns(figure,
-                        fmt::format("{} at standard conditions since the earlier campaign, less "
-                                    "what its group has in common",
-                                    figure),
-                        &columns);
-  }
-  AppendFigureColumns("FF_adjusted",
-                      "the same of FF, less what errors of light and temperature move together "
-                      "with Isc and Voc; none where Isc or Voc changed",
-                      &columns);
-  for (const char* figure : kCampaignFigures) {
-    columns.push_back({fmt::format("change_common_{}_percent", figure), "%", kNumber,
-                       fmt::format("{}: what its group, else the plant, has in common: light, age "
-                                   "or a sensor",
-                                   figure)});
-  }
-  columns.push_back(
-      {"change_against", "", kText, "whose median is the common change: group, plant, or nothing"});
-  columns.push_back({"change_sentence", "", kText, "the change in one sentence"});
-  columns.push_back({"change_action", "", kText, "the next thing to do about it"});
-  return columns;
-}
+std::vector<ResultColumn> CampaignColumns() { return HeadsOf(ChangeColumns()); }
 
 std::vector<ResultCell> CampaignCells(const Campaign& campaign,
                                       const std::vector<CampaignString>& before,
                                       const std::vector<CampaignString>& after, std::size_t i) {
+  static const ColumnList<CampaignRow> columns = ChangeColumns();
   const CampaignChange& change = campaign.changes[i];
-  const bool has = HasChange(change);
-  const ChangeTexts texts = TextsOf(campaign, before, after, i);
-  std::vector<ResultCell> cells;
-  cells.push_back(change.rank > 0 ? ResultCell(std::int64_t{change.rank}) : ResultCell());
-  cells.push_back(change.kind == CampaignKind::kNotCompared ? ResultCell()
-                                                            : TextCell(ToText(change.kind)));
-  cells.push_back(TextCell(texts.candidates));
-  const bool renamed = change.kind == CampaignKind::kRenamed;
-  cells.push_back(change.partner < 0 ? ResultCell()
-                                     : TextCell((renamed ? before : after)[change.partner].id));
-  for (const double watts : {change.lost_W, change.lost_low_W, change.lost_high_W}) {
-    cells.push_back(NumberCell(watts));
-  }
-  for (std::size_t q = 0; q < kCampaignFigures.size(); ++q) {
-    const double own = has ? change.own[q] : kUnknown;
-    const double half = has ? Half95(change, static_cast<int>(q)) : kUnknown;
-    for (const double value : {own, own - half, own + half}) {
-      cells.push_back(NumberCell(Percent(value)));
-    }
-  }
-  const bool adjusted = has && change.adjusted;
-  const double own = adjusted ? change.own[kAdjustedFill] : kUnknown;
-  const double half = adjusted ? Half95(change, kAdjustedFill) : kUnknown;
-  for (const double value : {own, own - half, own + half}) {
-    cells.push_back(NumberCell(Percent(value)));
-  }
-  const bool common = has && change.reference != CampaignReference::kNothing;
-  for (std::size_t q = 0; q < kCampaignFigures.size(); ++q) {
-    cells.push_back(common ? NumberCell(Percent(change.common[q])) : ResultCell());
-  }
-  cells.push_back(has ? TextCell(ToText(change.reference)) : ResultCell());
-  cells.push_back(TextCell(texts.sentence));
-  cells.push_back(TextCell(texts.action));
-  return cells;
+  const std::vector<CampaignString>& partners =
+      change.kind == CampaignKind::kRenamed ? before : after;
+  return CellsOf(columns, CampaignRow{change, TextsOf(campaign, before, after, i),
+                                      change.partner < 0 ? "" : partners[change.partner].id});
 }
 
 CampaignSummary SummariseCampaign(const Campaign& campaign,

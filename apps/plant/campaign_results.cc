@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "lyrefit/base/append.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/batch/count_rows.h"
 #include "plant/campaign_document.h"
 
 namespace lyrefit {
@@ -18,11 +18,6 @@ constexpr char kLevelOption[] = "change-level";
 constexpr char kBypassDiodesColumn[] = "bypass_diodes";
 constexpr char kCampaignFile[] = "campaign.json";
 constexpr std::size_t kMostChangesInText = 25;
-
-float FigureIn(const ResultRow& row, std::size_t place) {
-  const double* const value = CellAt<double>(row, place);
-  return static_cast<float>(value == nullptr ? kUnknown : *value);
-}
 
 ResultCell BypassDiodes(const BatchCurve& curve) {
   if (!curve.curve || !curve.curve->notes.bypass_diodes) return {};
@@ -76,20 +71,6 @@ Expected<std::vector<ResultFile>> CampaignAddition::Begin(const BatchTaskType& t
 
 std::vector<std::string> CampaignAddition::FileNames() const { return {kCampaignFile}; }
 
-CampaignAddition::State::State(EarlierResults results, const std::vector<ResultColumn>& columns,
-                               double change_level)
-    : earlier(std::move(results)),
-      level(change_level),
-      id(ColumnPlace(columns, "id")),
-      cause(ColumnPlace(columns, "cause")),
-      about(ColumnPlace(columns, "cause_about")),
-      diodes(ColumnPlace(columns, kBypassDiodesColumn)) {
-  for (int q = 0; q < kCampaignKept; ++q) {
-    values[q] = ColumnPlace(columns, kFigureColumns[q]);
-    expanded[q] = ColumnPlace(columns, kExpandedColumns[q]);
-  }
-}
-
 Expected<void> CampaignAddition::Open(const RowsInput& input) {
   state_.reset();
   const BatchJson& options = input.head.at("options");
@@ -100,7 +81,7 @@ Expected<void> CampaignAddition::Open(const RowsInput& input) {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) continue;
     TRY(EarlierResults earlier, ReadEarlierCopy(path.string(), digest));
-    state_.emplace(std::move(earlier), input.columns, options.value(kLevelOption, 0.0));
+    state_ = {std::move(earlier), options.value(kLevelOption, 0.0), RowReader(input.columns)};
     return {};
   }
   return Fail("the copy of the earlier results, before.part, is in no folder of these rows",
@@ -113,17 +94,17 @@ std::vector<ResultColumn> CampaignAddition::Columns() const {
 
 void CampaignAddition::Learn(const RowGroup& group) {
   if (!state_) return;
+  const RowReader& reader = state_->reader;
   for (const ResultRow& row : group.rows) {
     CampaignString string;
-    if (const auto* const id = CellAt<std::string>(row, state_->id)) string.id = *id;
-    if (const auto* const cause = CellAt<std::string>(row, state_->cause)) string.cause = *cause;
-    const auto* const about = CellAt<std::string>(row, state_->about);
-    string.repeat = about != nullptr && IsOfSweep(*about);
-    const auto* const diodes = CellAt<std::int64_t>(row, state_->diodes);
-    string.bypass_diodes = diodes == nullptr ? 0 : static_cast<std::int32_t>(*diodes);
+    string.id = reader.Text(row, "id");
+    string.cause = reader.Text(row, "cause");
+    string.repeat = IsOfSweep(reader.Text(row, "cause_about"));
+    const double diodes = reader.Number(row, kBypassDiodesColumn);
+    string.bypass_diodes = std::isfinite(diodes) ? static_cast<std::int32_t>(diodes) : 0;
     for (int q = 0; q < kCampaignKept; ++q) {
-      string.values[q] = FigureIn(row, state_->values[q]);
-      string.expanded[q] = FigureIn(row, state_->expanded[q]);
+      string.values[q] = static_cast<float>(reader.Number(row, kFigureColumns[q]));
+      string.expanded[q] = static_cast<float>(reader.Number(row, kExpandedColumns[q]));
     }
     state_->later.push_back(std::move(string));
   }

@@ -8,6 +8,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/batch/addition.h"
+#include "lyrefit/batch/count_rows.h"
 #include "plant/additions.h"
 #include "plant/campaign.h"
 
@@ -79,15 +80,11 @@ class CampaignAddition final : public BatchAddition {
  private:
   // What is learned of one run.
   struct State {
-    State(EarlierResults results, const std::vector<ResultColumn>& columns, double change_level);
-
     EarlierResults earlier;
-    double level;
-    // Positions of columns.
-    std::size_t id, cause, about, diodes;
-    std::array<std::size_t, kCampaignKept> values, expanded;
-    std::vector<CampaignString> later;
-    Campaign campaign;
+    double level = 0;
+    RowReader reader;
+    std::vector<CampaignString> later = {};
+    Campaign campaign = {};
     std::size_t next = 0;  // index of the row that gets its cells next
   };
   CampaignSummary Summary() const;

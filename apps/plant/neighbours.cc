@@ -9,8 +9,7 @@
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/batch/batch_task.h"
-#include "lyrefit/batch/count_rows.h"
+#include "lyrefit/batch/column.h"
 #include "plant/samples.h"
 
 namespace lyrefit {
@@ -57,6 +56,35 @@ std::vector<double> Sizes(const std::vector<NeighbourDeviation>& group, int q) {
   return sizes;
 }
 
+struct ComparedString {
+  const NeighbourDeviation& deviation;
+  std::vector<std::string> differences;  // with the limits of what is usual
+};
+
+const ColumnList<ComparedString>& ComparedColumns() {
+  using Of = const ComparedString&;
+  static const ColumnList<ComparedString> columns = {
+      {"group_peers", "",
+       "strings of the same combiner at like light that it is compared with; none: not compared",
+       [](Of of) { return of.deviation.peers; }},
+      {"group_Isc_percent", "%",
+       "short-circuit current per irradiance against the median of its peers",
+       [](Of of) { return 100 * of.deviation.parts[kIscPerLight]; }},
+      {"group_Voc_percent", "%", "open-circuit voltage against the median of its peers",
+       [](Of of) { return 100 * of.deviation.parts[kVoc]; }},
+      {"group_FF_percent", "%", "fill factor against the median of its peers",
+       [](Of of) { return 100 * of.deviation.parts[kFillFactor]; }},
+      {"group_deviation_percent", "%",
+       "maximum power per irradiance against the median of its peers",
+       [](Of of) { return 100 * of.deviation.parts[kPmaxPerLight]; }},
+      {"group_flag", "", "differs from its peers by more than is usual",
+       [](Of of) { return !of.differences.empty(); }},
+      {"group_outlier", "", "in what it differs, with the limit of what is usual",
+       [](Of of) { return ListCell(of.differences, ", "); }},
+  };
+  return columns;
+}
+
 }  // namespace
 
 std::vector<NeighbourDeviation> DeviationsAmong(const std::vector<Neighbour>& group,
@@ -93,38 +121,21 @@ std::array<double, kNeighbourQuantities> NeighbourScatter::Limits(
   return limits;
 }
 
-std::vector<ResultColumn> NeighbourColumns() {
-  constexpr CellType kNumber = CellType::kNumber;
-  return {
-      {"group_peers", "", CellType::kWhole,
-       "strings of the same combiner at like light that it is compared with; none: not compared"},
-      {"group_Isc_percent", "%", kNumber,
-       "short-circuit current per irradiance against the median of its peers"},
-      {"group_Voc_percent", "%", kNumber, "open-circuit voltage against the median of its peers"},
-      {"group_FF_percent", "%", kNumber, "fill factor against the median of its peers"},
-      {"group_deviation_percent", "%", kNumber,
-       "maximum power per irradiance against the median of its peers"},
-      {"group_flag", "", CellType::kTruth, "differs from its peers by more than is usual"},
-      {"group_outlier", "", CellType::kText, "in what it differs, with the limit of what is usual"},
-  };
-}
+std::vector<ResultColumn> NeighbourColumns() { return HeadsOf(ComparedColumns()); }
 
 std::vector<ResultCell> NeighbourCells(const NeighbourDeviation& deviation,
                                        const std::array<double, kNeighbourQuantities>& limits) {
-  if (deviation.peers == 0) return std::vector<ResultCell>(kNeighbourQuantities + 3);
+  const ColumnList<ComparedString>& columns = ComparedColumns();
+  if (deviation.peers == 0) return std::vector<ResultCell>(columns.size());
   static constexpr const char* kNames[] = {"Isc/G", "Voc", "FF", "Pmax/G"};
-  std::vector<ResultCell> cells = {std::int64_t{deviation.peers}};
-  std::vector<std::string> differences;
+  ComparedString compared = {deviation, {}};
   for (int q = 0; q < kNeighbourQuantities; ++q) {
     const double part = deviation.parts[q];
-    cells.push_back(NumberCell(100 * part));
     if (!(std::fabs(part) > limits[q])) continue;
-    differences.push_back(fmt::format("{} {:+.2f} % (usual: within {:.2f} %)", kNames[q],
-                                      100 * part, 100 * limits[q]));
+    compared.differences.push_back(fmt::format("{} {:+.2f} % (usual: within {:.2f} %)", kNames[q],
+                                               100 * part, 100 * limits[q]));
   }
-  cells.emplace_back(!differences.empty());
-  cells.push_back(ListCell(differences, ", "));
-  return cells;
+  return CellsOf(columns, compared);
 }
 
 void NeighbourAddition::AddOptions(BatchJson* options) const {
@@ -141,16 +152,11 @@ Expected<std::vector<ResultFile>> NeighbourAddition::Begin(const BatchTaskType& 
 
 Expected<void> NeighbourAddition::Open(const RowsInput& input) {
   const BatchJson& options = input.head.at("options");
-  const auto place = [&](const char* name) { return ColumnPlace(input.columns, name); };
   state_ = {};
   state_.level = options.value("group-level", 0.0);
   state_.like_light = options.value("like-light", 0.0);
   state_.of_pixels = SampleCounter(input.columns).counts();
-  state_.irradiance = place("irradiance_Wm2");
-  state_.isc = place("Isc_A");
-  state_.voc = place("Voc_V");
-  state_.ff = place("FF");
-  state_.pmax = place("Pmax_W");
+  state_.reader = RowReader(input.columns);
   return {};
 }
 
@@ -158,14 +164,11 @@ std::vector<NeighbourDeviation> NeighbourAddition::Deviations(const RowGroup& gr
   if (!group.together) return std::vector<NeighbourDeviation>(group.rows.size());
   std::vector<Neighbour> members;
   for (const ResultRow& row : group.rows) {
-    const auto number = [&row](std::size_t place) {
-      const auto* const found = CellAt<double>(row, place);
-      return found == nullptr ? kUnknown : *found;
-    };
-    const double light = number(state_.irradiance);
-    members.push_back({light,
-                       {number(state_.isc) / light, number(state_.voc), number(state_.ff),
-                        number(state_.pmax) / light}});
+    const auto number = [&](const char* name) { return state_.reader.Number(row, name); };
+    const double light = number("irradiance_Wm2");
+    members.push_back(
+        {light,
+         {number("Isc_A") / light, number("Voc_V"), number("FF"), number("Pmax_W") / light}});
   }
   return DeviationsAmong(members, state_.like_light);
 }

@@ -8,6 +8,7 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/batch/addition.h"
+#include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/result_row.h"
 #include "plant/additions.h"
 #include "plant/deviation_bins.h"
@@ -92,8 +93,7 @@ class NeighbourAddition final : public BatchAddition {
     double level = 0;
     double like_light = 0;
     bool of_pixels = false;
-    // Positions of columns.
-    std::size_t irradiance = 0, isc = 0, voc = 0, ff = 0, pmax = 0;
+    RowReader reader;
     NeighbourScatter scatter;
     std::int64_t compared = 0, flagged = 0;
   };

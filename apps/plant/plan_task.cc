@@ -2,41 +2,19 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/curve/key_points.h"
 #include "plant/scale.h"
 
 namespace lyrefit {
 namespace {
-
-std::vector<ResultColumn> PlanColumns(bool planned) {
-  constexpr CellType kNumber = CellType::kNumber;
-  constexpr CellType kWhole = CellType::kWhole;
-  std::vector<ResultColumn> columns = {
-      {kSlopeColumn, "ohm", kNumber, "measured slope -dV/dI at open circuit"}};
-  if (!planned) return columns;
-  for (ResultColumn column : std::vector<ResultColumn>{
-           {"plan_module", "", CellType::kText, "module of the string by the plan"},
-           {"plan_modules_in_series", "", kWhole, "modules in series by the plan"},
-           {"plan_strings_in_parallel", "", kWhole, "strings in parallel by the plan"},
-           {"plan_bypass_diodes", "", kWhole, "bypass diodes of a module by the plan"},
-           {"plan_cells_in_series", "", kWhole, "cells in series of the string by the plan"},
-           {"plan_Isc_A", "A", kNumber,
-            "short-circuit current that the plan expects at the stated light and temperature"},
-           {"plan_Voc_V", "V", kNumber, "open-circuit voltage that the plan expects"},
-           {"plan_Imp_A", "A", kNumber, "current at maximum power that the plan expects"},
-           {"plan_Vmp_V", "V", kNumber, "voltage at maximum power that the plan expects"},
-           {"plan_Pmax_W", "W", kNumber, "maximum power that the plan expects"},
-           {"plan_slope_ohm", "ohm", kNumber,
-            "slope -dV/dI at open circuit that the plan expects, without cables"}}) {
-    columns.push_back(std::move(column));
-  }
-  return columns;
-}
 
 // The figures that the plan expects of a string; unknown without a module or conditions.
 StringFigures ExpectedOf(const PlannedString& line, const IvCurve& curve) {
@@ -46,22 +24,59 @@ StringFigures ExpectedOf(const PlannedString& line, const IvCurve& curve) {
   return FiguresByPlan(line, curve.conditions.irradiance_W_m2, curve.conditions.cell_temperature_K);
 }
 
-std::vector<ResultCell> PlanCells(const PlannedString* line, const IvCurve& curve) {
-  std::vector<ResultCell> cells;
-  if (line == nullptr) return std::vector<ResultCell>(PlanColumns(true).size() - 1);
-  cells.push_back(line->module ? TextCell(line->module->name) : ResultCell());
-  cells.emplace_back(std::int64_t{line->modules_in_series});
-  cells.emplace_back(std::int64_t{line->strings_in_parallel});
-  cells.emplace_back(std::int64_t{line->bypass_diodes});
-  cells.push_back(line->module ? ResultCell(std::int64_t{line->modules_in_series} *
-                                            line->module->cells_in_series)
-                               : ResultCell());
-  const StringFigures expected = ExpectedOf(*line, curve);
-  for (const double value : {expected.isc_A, expected.voc_V, expected.imp_A, expected.vmp_V,
-                             expected.imp_A * expected.vmp_V, expected.slope_ohm}) {
-    cells.push_back(NumberCell(value));
+struct PlanRow {
+  PlanRow(const PlannedString* of, const IvCurve& curve)
+      : line(of), expected(of == nullptr ? StringFigures() : ExpectedOf(*of, curve)) {
+    const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
+    slope_ohm = SlopeAtOpenCircuit(curve.voltage_V, curve.current_A, key.short_circuit_current_A);
   }
-  return cells;
+
+  const PlannedModule* Module() const { return line == nullptr ? nullptr : line->module.get(); }
+  std::optional<int> Count(int PlannedString::*count) const {
+    return line == nullptr ? std::nullopt : std::optional(line->*count);
+  }
+
+  const PlannedString* line;  // null: the plan does not name the string
+  StringFigures expected;
+  double slope_ohm = kUnknown;
+};
+
+ColumnList<PlanRow> PlanColumns(bool planned) {
+  using Of = const PlanRow&;
+  ColumnList<PlanRow> columns = {
+      {kSlopeColumn, "ohm", "measured slope -dV/dI at open circuit", &PlanRow::slope_ohm}};
+  if (!planned) return columns;
+  Append({{"plan_module", "", "module of the string by the plan",
+           [](Of of) { return of.Module() == nullptr ? "" : of.Module()->name; }},
+          {"plan_modules_in_series", "", "modules in series by the plan",
+           [](Of of) { return of.Count(&PlannedString::modules_in_series); }},
+          {"plan_strings_in_parallel", "", "strings in parallel by the plan",
+           [](Of of) { return of.Count(&PlannedString::strings_in_parallel); }},
+          {"plan_bypass_diodes", "", "bypass diodes of a module by the plan",
+           [](Of of) { return of.Count(&PlannedString::bypass_diodes); }},
+          {"plan_cells_in_series", "", "cells in series of the string by the plan",
+           [](Of of) {
+             return of.Module() == nullptr
+                        ? std::nullopt
+                        : std::optional(std::int64_t{of.line->modules_in_series} *
+                                        of.Module()->cells_in_series);
+           }},
+          {"plan_Isc_A", "A",
+           "short-circuit current that the plan expects at the stated light and temperature",
+           [](Of of) { return of.expected.isc_A; }},
+          {"plan_Voc_V", "V", "open-circuit voltage that the plan expects",
+           [](Of of) { return of.expected.voc_V; }},
+          {"plan_Imp_A", "A", "current at maximum power that the plan expects",
+           [](Of of) { return of.expected.imp_A; }},
+          {"plan_Vmp_V", "V", "voltage at maximum power that the plan expects",
+           [](Of of) { return of.expected.vmp_V; }},
+          {"plan_Pmax_W", "W", "maximum power that the plan expects",
+           [](Of of) { return of.expected.imp_A * of.expected.vmp_V; }},
+          {"plan_slope_ohm", "ohm",
+           "slope -dV/dI at open circuit that the plan expects, without cables",
+           [](Of of) { return of.expected.slope_ohm; }}},
+         &columns);
+  return columns;
 }
 
 }  // namespace
@@ -96,22 +111,16 @@ double SlopeAtOpenCircuit(const std::vector<double>& voltage_V,
 
 BatchTaskType WithPlan(BatchTaskType task, std::shared_ptr<const PlantPlan> plan) {
   const std::size_t own = task.columns.size();
-  for (ResultColumn& column : PlanColumns(plan != nullptr))
-    task.columns.push_back(std::move(column));
+  const ColumnList<PlanRow> columns = PlanColumns(plan != nullptr);
+  Append(HeadsOf(columns), &task.columns);
   task.options.push_back({"plan", plan ? plan->Digest() : "neighbours", ""});
-  task.run = [run = task.run, plan = std::move(plan), own](
+  task.run = [run = task.run, plan = std::move(plan), own, columns](
                  const BatchCurve& curve, std::uint64_t seed, const Observer& observer) {
     TaskResult result = run(curve, seed, observer);
     if (result.interrupted) return result;
     result.cells.resize(own);
-    const IvCurve& readings = *curve.curve;
-    const KeyPoints key = FindKeyPoints(readings.voltage_V, readings.current_A);
-    result.cells.push_back(NumberCell(
-        SlopeAtOpenCircuit(readings.voltage_V, readings.current_A, key.short_circuit_current_A)));
-    if (plan == nullptr) return result;
-    for (ResultCell& cell : PlanCells(plan->Find(curve.id), readings)) {
-      result.cells.push_back(std::move(cell));
-    }
+    const PlannedString* const line = plan == nullptr ? nullptr : plan->Find(curve.id);
+    Append(CellsOf(columns, PlanRow(line, *curve.curve)), &result.cells);
     return result;
   };
   return task;

@@ -7,7 +7,6 @@
 #include <iterator>
 
 #include "lyrefit/batch/addition.h"
-#include "lyrefit/batch/count_rows.h"
 #include "plant/plant_figures.h"
 #include "plant/plant_text.h"
 
@@ -96,24 +95,21 @@ block::Table::Row LossRow(const std::string& name, const PlantLosses& losses) {
 
 }  // namespace
 
-PlantLossCounter::PlantLossCounter(const std::vector<ResultColumn>& columns) {
-  for (const PlantLossPart& part : kPlantLossParts) {
-    const std::size_t at = ColumnPlace(columns, part.column);
-    if (at < columns.size()) places_.push_back(at);
-  }
-  if (places_.size() < kAllParts) places_.clear();
-  power_ = ColumnPlace(columns, "reference_power_W");
-  now_ = ColumnPlace(columns, "loss_now_total_percent");
+PlantLossCounter::PlantLossCounter(const std::vector<ResultColumn>& columns) : reader_(columns) {
+  for (const PlantLossPart& part : kPlantLossParts) counts_ = counts_ && reader_.Has(part.column);
 }
 
 void PlantLossCounter::Add(const std::string& id, const ResultRow& row) {
-  if (places_.empty()) return;
+  if (!counts_) return;
   std::vector<double> percents;
-  for (const std::size_t at : places_) percents.push_back(NumberAt(row, at));
-  const double power_W = NumberAt(row, power_);
+  for (const PlantLossPart& part : kPlantLossParts) {
+    percents.push_back(reader_.Number(row, part.column));
+  }
+  const double power_W = reader_.Number(row, "reference_power_W");
+  const double now_percent = reader_.Number(row, "loss_now_total_percent");
   if (!std::isfinite(percents.back()) || !(power_W > 0)) return;
   const auto add = [&](PlantLosses& sums) {
-    sums = WithLoss(std::move(sums), percents, power_W, NumberAt(row, now_));
+    sums = WithLoss(std::move(sums), percents, power_W, now_percent);
   };
   add(summary_.plant);
   const std::string parent = ParentOf(id);

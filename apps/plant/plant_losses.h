@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/result_row.h"
 
 namespace lyrefit {
@@ -46,9 +47,8 @@ class PlantLossCounter {
   const PlantLossSummary& summary() const { return summary_; }
 
  private:
-  std::vector<std::size_t> places_;  // of the parts; empty: there are none
-  std::size_t power_ = 0;            // of the reference power
-  std::size_t now_ = 0;              // of the total loss of the last days
+  RowReader reader_;
+  bool counts_ = true;  // the rows have all parts
   PlantLossSummary summary_;
 };
 

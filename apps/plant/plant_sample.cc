@@ -1,6 +1,6 @@
 #include "plant/plant_sample.h"
 
-#include <algorithm>
+#include <set>
 
 #include "lyrefit/base/numbers.h"
 
@@ -32,20 +32,12 @@ bool IsNumber(const ResultColumn& column) {
 
 }  // namespace
 
-double NumberAt(const ResultRow& row, std::size_t place) {
-  if (place >= row.cells.size()) return kUnknown;
-  if (const double* number = std::get_if<double>(&row.cells[place])) return *number;
-  const auto* whole = std::get_if<std::int64_t>(&row.cells[place]);
-  return whole ? static_cast<double>(*whole) : kUnknown;
-}
-
-PlantSampler::PlantSampler(const std::vector<ResultColumn>& columns) {
+PlantSampler::PlantSampler(const std::vector<ResultColumn>& columns) : reader_(columns) {
+  std::set<std::string> taken;
   const auto add = [&](const auto& wanted, std::size_t most, std::vector<PlantSample::Column>* to) {
     for (std::size_t c = 0; c < columns.size() && to->size() < most; ++c) {
       if (!IsNumber(columns[c]) || !wanted(columns[c].name)) continue;
-      if (std::count(places_.begin(), places_.end(), c) > 0) continue;
-      places_.push_back(c);
-      to->push_back({columns[c].name, columns[c].unit});
+      if (taken.insert(columns[c].name).second) to->push_back({columns[c].name, columns[c].unit});
     }
   };
   for (const char* name : kSpreads) {
@@ -69,11 +61,10 @@ void PlantSampler::Add(const ResultRow& row, bool differs) {
   if (at >= kPlantMostSampled) return;
   if (more) sample_.differs.push_back(false);
   sample_.differs[at] = differs;
-  std::size_t place = 0;
   for (auto* columns : {&sample_.spreads, &sample_.neighbours}) {
     for (PlantSample::Column& column : *columns) {
       if (more) column.values.push_back(kUnknown);
-      column.values[at] = NumberAt(row, places_[place++]);
+      column.values[at] = reader_.Number(row, column.name);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
+#include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/result_row.h"
 
 namespace lyrefit {
@@ -32,13 +33,10 @@ class PlantSampler {
   const PlantSample& sample() const { return sample_; }
 
  private:
+  RowReader reader_;
   PlantSample sample_;
-  std::vector<std::size_t> places_;  // of the columns of both kinds in the rows
   std::int64_t seen_ = 0;
   RandomStream random_{1};
 };
-
-// A cell as a number; NaN if it is none.
-double NumberAt(const ResultRow& row, std::size_t place);
 
 }  // namespace lyrefit

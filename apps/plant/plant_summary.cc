@@ -8,30 +8,12 @@
 namespace lyrefit {
 namespace {
 
-constexpr const char* kNames[] = {"id",
-                                  "status",
-                                  "reason",
-                                  "date",
-                                  "zone",
-                                  "cause",
-                                  "cause_title",
-                                  "string_cause_title",
-                                  "string_to_do",
-                                  "performance_factor",
-                                  "Pmax_stc_W",
-                                  "recoverable_power_W",
-                                  "group_deviation_percent",
-                                  "lack_of_fit_percent",
-                                  "page",
-                                  "below_rating_W",
-                                  "group_flag",
-                                  "sparkline",
-                                  "plan_cause",
-                                  "loss_now_total_percent",
-                                  "onset_date",
-                                  "largest_loss",
-                                  "first",
-                                  "last"};
+// The columns that rank the worst rows, the first that there is, and which way is worse.
+constexpr std::pair<const char*, double> kRankedBy[] = {{"performance_factor", -1},
+                                                        {"loss_now_total_percent", 1},
+                                                        {"group_deviation_percent", -1},
+                                                        {"recoverable_power_W", 1},
+                                                        {"lack_of_fit_percent", 1}};
 
 PlantShare& ShareOf(const std::string& word, std::map<std::string, PlantShare>* shares) {
   if (shares->size() < kPlantMostWords || shares->count(word)) return (*shares)[word];
@@ -64,49 +46,24 @@ bool IsFine(const std::string& status) { return status.empty() || status == "fin
 }  // namespace
 
 PlantCounter::PlantCounter(const std::vector<ResultColumn>& columns)
-    : judge_(columns), sampler_(columns), losses_(columns) {
-  for (int known = 0; known < kColumns; ++known) {
-    const auto at = std::find_if(columns.begin(), columns.end(), [&](const ResultColumn& column) {
-      return column.name == kNames[known];
-    });
-    places_[known] = at == columns.end() ? -1 : static_cast<int>(at - columns.begin());
+    : reader_(columns), judge_(columns), sampler_(columns), losses_(columns) {
+  const auto has = [this](const char* name) { return reader_.Has(name); };
+  sum_.judged_by = has("zone") ? "zone" : has("cause") || has("plan_cause") ? "cause" : "";
+  for (const char* by : {"string_cause_title", "cause_title", "cause"}) {
+    if (has(by) && sum_.titled_by.empty()) sum_.titled_by = by;
   }
-  sum_.judged_by = Has(kZone) ? "zone" : Has(kCause) || Has(kPlanCause) ? "cause" : "";
-  for (const Known by : {kStringTitle, kCauseTitle, kCause}) {
-    if (Has(by) && sum_.titled_by.empty()) sum_.titled_by = kNames[by];
+  sum_.tells_what_to_do = has("string_to_do");
+  for (const auto& [by, worse] : kRankedBy) {
+    if (!has(by) || !ranked_by_.empty()) continue;
+    ranked_by_ = by;
+    worse_ = worse;
   }
-  sum_.tells_what_to_do = Has(kToDo);
-  if (judge_.judges()) sum_.worst_by = "what is lost";
-  for (const Known by : {kPerformance, kLostNow, kDeviation, kRecoverable, kDeparture}) {
-    if (Has(by) && sum_.worst_by.empty()) sum_.worst_by = kNames[by];
-  }
-}
-
-std::string PlantCounter::Text(const ResultRow& row, Known column) const {
-  const std::size_t place = places_[column];
-  if (!Has(column) || place >= row.cells.size()) return "";
-  const std::string* text = std::get_if<std::string>(&row.cells[place]);
-  return text ? *text : "";
-}
-
-double PlantCounter::Number(const ResultRow& row, Known column) const {
-  return Has(column) ? NumberAt(row, places_[column]) : kUnknown;
-}
-
-bool PlantCounter::Differs(const ResultRow& row) const {
-  const std::size_t place = places_[kDiffers];
-  if (!Has(kDiffers) || place >= row.cells.size()) return false;
-  const bool* const differs = std::get_if<bool>(&row.cells[place]);
-  return differs != nullptr && *differs;
+  sum_.worst_by = judge_.judges() ? "what is lost" : ranked_by_;
 }
 
 // Sort key of the worst rows, larger is worse; NaN: unknown.
 double PlantCounter::Badness(const ResultRow& row) const {
-  if (Has(kPerformance)) return -Number(row, kPerformance);
-  if (Has(kLostNow)) return Number(row, kLostNow);
-  if (Has(kDeviation)) return -Number(row, kDeviation);
-  if (Has(kRecoverable)) return Number(row, kRecoverable);
-  return Number(row, kDeparture);
+  return worse_ * reader_.Number(row, ranked_by_);
 }
 
 // Keeps at most `most` rows, those of the highest ranks.
@@ -177,22 +134,22 @@ void PlantCounter::CountDate(const std::string& date) {
 
 void PlantCounter::Add(const ResultRow& row) {
   PlantRow named;
-  named.id = Text(row, kId);
+  named.id = reader_.Text(row, "id");
   named.verdict = judge_.Judge(row);
-  named.reason = Text(row, kReason);
-  named.page = Text(row, kPage);
-  named.sparkline = Text(row, kSparkline);
-  named.onset_date = Text(row, kOnset);
-  named.largest_loss = Text(row, kLargestLoss);
-  named.lost_now_percent = Number(row, kLostNow);
-  named.below_rating_W = Number(row, kBelow);
-  named.deviation_percent = Number(row, kDeviation);
-  named.performance_factor = Number(row, kPerformance);
-  named.Pmax_stc_W = Number(row, kPower);
-  const std::string status = Text(row, kStatus);
+  named.reason = reader_.Text(row, "reason");
+  named.page = reader_.Text(row, "page");
+  named.sparkline = reader_.Text(row, "sparkline");
+  named.onset_date = reader_.Text(row, "onset_date");
+  named.largest_loss = reader_.Text(row, "largest_loss");
+  named.lost_now_percent = reader_.Number(row, "loss_now_total_percent");
+  named.below_rating_W = reader_.Number(row, "below_rating_W");
+  named.deviation_percent = reader_.Number(row, "group_deviation_percent");
+  named.performance_factor = reader_.Number(row, "performance_factor");
+  named.Pmax_stc_W = reader_.Number(row, "Pmax_stc_W");
+  const std::string status = reader_.Text(row, "status");
   const bool fine = IsFine(status);
   const bool needs_work = named.verdict.NeedsWork();
-  const bool differs = fine && Differs(row);
+  const bool differs = fine && reader_.Truth(row, "group_flag");
 
   ++sum_.rows;
   sum_.fine += fine ? 1 : 0;
@@ -204,7 +161,7 @@ void PlantCounter::Add(const ResultRow& row) {
   if (differs && !needs_work) ++sum_.passed_outlier;
   if (needs_work && named.below_rating_W > 0) sum_.below_rating_W += named.below_rating_W;
   CountWords(named, status);
-  for (const Known date : {kDate, kFirst, kLast}) CountDate(Text(row, date));
+  for (const char* date : {"date", "first", "last"}) CountDate(reader_.Text(row, date));
   CountTree(named);
   if (!fine) return;
   const double badness = Badness(row);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/result_row.h"
 #include "plant/plant_losses.h"
 #include "plant/plant_sample.h"
@@ -95,40 +96,9 @@ class PlantCounter {
   PlantSummary Summary() const;
 
  private:
-  enum Known {
-    kId,
-    kStatus,
-    kReason,
-    kDate,
-    kZone,
-    kCause,
-    kCauseTitle,
-    kStringTitle,
-    kToDo,
-    kPerformance,
-    kPower,
-    kRecoverable,
-    kDeviation,
-    kDeparture,
-    kPage,
-    kBelow,
-    kDiffers,
-    kSparkline,
-    kPlanCause,
-    kLostNow,
-    kOnset,
-    kLargestLoss,
-    kFirst,
-    kLast,
-    kColumns
-  };
   // Rows with what ranks them, the first of it first; a heap with the smallest on top.
   using Rank = std::array<double, 3>;
   using Ranked = std::vector<std::pair<Rank, PlantRow>>;
-  std::string Text(const ResultRow& row, Known column) const;
-  double Number(const ResultRow& row, Known column) const;
-  bool Has(Known column) const { return places_[column] >= 0; }
-  bool Differs(const ResultRow& row) const;
   double Badness(const ResultRow& row) const;
   void CountWords(const PlantRow& row, const std::string& status);
   void CountDate(const std::string& date);
@@ -136,7 +106,9 @@ class PlantCounter {
   static void Keep(Rank rank, const PlantRow& row, std::size_t most, Ranked* ranked);
   static std::vector<PlantRow> InOrder(Ranked ranked);
 
-  std::array<int, kColumns> places_{};
+  RowReader reader_;
+  std::string ranked_by_;  // the column of Badness; empty: there is none
+  double worse_ = 1;       // its sign towards the worst
   StringJudge judge_;
   PlantSummary sum_;
   std::map<std::string, std::string> first_reasons_;  // of each kind (base/reasons.h)

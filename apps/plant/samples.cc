@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/quantile.h"
-#include "lyrefit/batch/batch_task.h"
-#include "lyrefit/batch/count_rows.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/batch/pixel_state.h"
 #include "lyrefit/batch/row_text.h"
 #include "lyrefit/read/cells.h"
@@ -20,16 +20,6 @@ constexpr std::size_t kEfficiency = 0, kPower = 4;  // among kSampleQuantities
 
 constexpr char kSamplesCsv[] = "samples.csv";
 constexpr char kSamplesLines[] = "samples.jsonl";
-
-std::string TextIn(const ResultRow& row, std::size_t place) {
-  const auto* const text = CellAt<std::string>(row, place);
-  return text == nullptr ? std::string() : *text;
-}
-
-double NumberIn(const ResultRow& row, std::size_t place) {
-  const auto* const number = CellAt<double>(row, place);
-  return number == nullptr ? kUnknown : *number;
-}
 
 Quartiles QuartilesOf(std::vector<double> values) {
   Quartiles found;
@@ -47,6 +37,70 @@ std::int64_t CountOf(const std::map<std::string, std::int64_t>& counts, const st
   return found == counts.end() ? 0 : found->second;
 }
 
+// A row of samples.csv and samples.jsonl.
+struct SampleRow {
+  const SampleSummary& sample;
+  SampleDirection direction;  // empty: no pixel works
+};
+
+void AddStates(ColumnList<SampleRow>* columns) {
+  for (const auto& [state, doc] :
+       {std::pair{PixelState::kWorking, "those that work"},
+        {PixelState::kShorted, "those that are shorted"},
+        {PixelState::kDead, "those that give no current"},
+        {PixelState::kWeak, "those below the least efficiency"},
+        {PixelState::kUnlit, "those measured in the dark only, which the yield leaves out"},
+        {PixelState::kDoubtful, "those of implausible readings"},
+        {PixelState::kBroken, "those that could not be read"}}) {
+    columns->emplace_back(ToText(state), "", doc, [name = ToText(state)](const SampleRow& of) {
+      return CountOf(of.sample.states, name);
+    });
+  }
+}
+
+void AddQuartiles(std::size_t q, ColumnList<SampleRow>* columns) {
+  const auto add = [&](const char* end, const char* what, double Quartiles::*figure) {
+    columns->emplace_back(
+        std::string(kSampleQuantities[q]) + end, "", std::string(what) + " of the working pixels",
+        [q, figure](const SampleRow& of) { return of.direction.quantities[q].*figure; });
+  };
+  add("_q1", "lower quartile", &Quartiles::low);
+  add("_median", "median", &Quartiles::median);
+  add("_q3", "upper quartile", &Quartiles::high);
+}
+
+ColumnList<SampleRow> SampleColumns() {
+  using Of = const SampleRow&;
+  ColumnList<SampleRow> columns = {
+      {"sample", "", "the sample", [](Of of) { return of.sample.name; }},
+      {"direction", "", "forward or reverse; none where no pixel works",
+       [](Of of) { return of.direction.direction; }},
+      {"pixels", "", "all pixels of the sample, of any direction",
+       [](Of of) { return of.sample.pixels; }},
+  };
+  AddStates(&columns);
+  Append({{"yield", "", "working over all that were measured in the light, a fraction",
+           [](Of of) { return of.sample.yield(); }},
+          {"not_working", "", "pixels that do not work, with '; ' between them",
+           [](Of of) { return ListCell(of.sample.not_working, "; "); }},
+          {"hysteresis_normal", "", "working pixels whose reverse sweep gives more power",
+           [](Of of) { return CountOf(of.sample.senses, ToText(HysteresisSense::kNormal)); }},
+          {"hysteresis_inverted", "", "working pixels whose forward sweep gives more power",
+           [](Of of) { return CountOf(of.sample.senses, ToText(HysteresisSense::kInverted)); }},
+          {"count", "", "working pixels measured in this direction",
+           [](Of of) { return of.direction.quantities[kPower].count; }}},
+         &columns);
+  for (std::size_t q = 0; q < kSampleQuantities.size(); ++q) AddQuartiles(q, &columns);
+  Append({{"champion", "", "id of the best pixel in this direction",
+           [](Of of) { return of.direction.champion; }},
+          {"champion_efficiency", "", "its efficiency, a fraction",
+           [](Of of) { return of.direction.champion_efficiency; }},
+          {"champion_pmp_W", "W", "its maximum power",
+           [](Of of) { return of.direction.champion_pmp_W; }}},
+         &columns);
+  return columns;
+}
+
 }  // namespace
 
 std::int64_t SampleSummary::working() const {
@@ -58,53 +112,40 @@ double SampleSummary::yield() const {
   return lit == 0 ? kUnknown : static_cast<double>(working()) / static_cast<double>(lit);
 }
 
-SampleCounter::SampleCounter(const std::vector<ResultColumn>& columns)
-    : id_(ColumnPlace(columns, "id")),
-      where_(ColumnPlace(columns, "where")),
-      status_(ColumnPlace(columns, "status")),
-      state_(ColumnPlace(columns, "state")),
-      sense_(ColumnPlace(columns, "hysteresis")),
-      at_(),
-      counts_(ColumnPlace(columns, "sample") != kNoColumn && state_ != kNoColumn) {
-  for (std::size_t d = 0; d < kDirections.size(); ++d) {
-    for (std::size_t q = 0; q < kSampleQuantities.size(); ++q) {
-      const std::string name = std::string(kDirections[d]) + "_" + kSampleQuantities[q];
-      at_[d].quantities[q] = ColumnPlace(columns, name.c_str());
-    }
-  }
-}
-
 void SampleCounter::Count(const ResultRow& row) {
-  const std::string id = TextIn(row, id_);
-  const std::string name = SampleOfCell(id, TextIn(row, where_));
+  const std::string id = reader_.Text(row, "id");
+  const std::string name = SampleOfCell(id, reader_.Text(row, "where"));
   const auto [place, is_new] = places_.emplace(name, samples_.size());
   if (is_new) samples_.push_back({{name, 0, {}, {}, {}, {}}, {}});
   Sample& sample = samples_[place->second];
   ++sample.summary.pixels;
-  std::string state = TextIn(row, state_);
+  std::string state = reader_.Text(row, "state");
   if (state.empty()) state = ToText(PixelState::kBroken);
-  if (TextIn(row, status_) == ToText(RowStatus::kDoubtful)) state = ToText(PixelState::kDoubtful);
+  if (reader_.Text(row, "status") == ToText(RowStatus::kDoubtful))
+    state = ToText(PixelState::kDoubtful);
   ++sample.summary.states[state];
   if (state != ToText(PixelState::kWorking)) {
     sample.summary.not_working.push_back(id.substr(id.rfind('/') + 1) + ": " + state);
     return;
   }
-  const std::string sense = TextIn(row, sense_);
+  const std::string sense = reader_.Text(row, "hysteresis");
   if (!sense.empty()) ++sample.summary.senses[sense];
   for (std::size_t d = 0; d < kDirections.size(); ++d) {
-    CountDirection(row, id, at_[d], &sample.directions[d]);
+    CountDirection(row, id, std::string(kDirections[d]) + "_", &sample.directions[d]);
   }
 }
 
 void SampleCounter::CountDirection(const ResultRow& row, const std::string& id,
-                                   const DirectionPlaces& at, Direction* direction) const {
+                                   const std::string& prefix, Direction* direction) const {
+  const auto number = [&](std::size_t q) {
+    return reader_.Number(row, prefix + kSampleQuantities[q]);
+  };
   for (std::size_t q = 0; q < kSampleQuantities.size(); ++q) {
-    const double value = NumberIn(row, at.quantities[q]);
-    if (std::isfinite(value)) direction->values[q].push_back(value);
+    if (std::isfinite(number(q))) direction->values[q].push_back(number(q));
   }
   SampleDirection& found = direction->found;
-  const double efficiency = NumberIn(row, at.quantities[kEfficiency]);
-  const double power_W = NumberIn(row, at.quantities[kPower]);
+  const double efficiency = number(kEfficiency);
+  const double power_W = number(kPower);
   if (!std::isfinite(power_W)) return;
   const bool by_efficiency = std::isfinite(efficiency) || std::isfinite(found.champion_efficiency);
   const bool better = by_efficiency
@@ -131,70 +172,6 @@ std::vector<SampleSummary> SampleCounter::Summaries() const {
     }
   }
   return summaries;
-}
-
-std::vector<ResultColumn> SampleColumns() {
-  constexpr CellType kText = CellType::kText;
-  constexpr CellType kNumber = CellType::kNumber;
-  constexpr CellType kWhole = CellType::kWhole;
-  std::vector<ResultColumn> columns = {
-      {"sample", "", kText, "the sample"},
-      {"direction", "", kText, "forward or reverse; none where no pixel works"},
-      {"pixels", "", kWhole, "all pixels of the sample, of any direction"},
-      {"working", "", kWhole, "those that work"},
-      {"shorted", "", kWhole, "those that are shorted"},
-      {"dead", "", kWhole, "those that give no current"},
-      {"weak", "", kWhole, "those below the least efficiency"},
-      {"unlit", "", kWhole, "those measured in the dark only, which the yield leaves out"},
-      {"doubtful", "", kWhole, "those of implausible readings"},
-      {"broken", "", kWhole, "those that could not be read"},
-      {"yield", "", kNumber, "working over all that were measured in the light, a fraction"},
-      {"not_working", "", kText, "pixels that do not work, with '; ' between them"},
-      {"hysteresis_normal", "", kWhole, "working pixels whose reverse sweep gives more power"},
-      {"hysteresis_inverted", "", kWhole, "working pixels whose forward sweep gives more power"},
-      {"count", "", kWhole, "working pixels measured in this direction"},
-  };
-  for (const char* quantity : kSampleQuantities) {
-    const std::string name = quantity;
-    columns.push_back({name + "_q1", "", kNumber, "lower quartile of the working pixels"});
-    columns.push_back({name + "_median", "", kNumber, "median of the working pixels"});
-    columns.push_back({name + "_q3", "", kNumber, "upper quartile of the working pixels"});
-  }
-  columns.push_back({"champion", "", kText, "id of the best pixel in this direction"});
-  columns.push_back({"champion_efficiency", "", kNumber, "its efficiency, a fraction"});
-  columns.push_back({"champion_pmp_W", "W", kNumber, "its maximum power"});
-  return columns;
-}
-
-std::vector<ResultRow> SampleRows(const std::vector<SampleSummary>& samples) {
-  std::vector<ResultRow> rows;
-  for (const SampleSummary& sample : samples) {
-    std::vector<SampleDirection> directions = sample.directions;
-    if (directions.empty()) directions.emplace_back();
-    for (const SampleDirection& one : directions) {
-      ResultRow row = {{TextCell(sample.name), TextCell(one.direction), sample.pixels}};
-      for (const PixelState state :
-           {PixelState::kWorking, PixelState::kShorted, PixelState::kDead, PixelState::kWeak,
-            PixelState::kUnlit, PixelState::kDoubtful, PixelState::kBroken}) {
-        row.cells.emplace_back(CountOf(sample.states, ToText(state)));
-      }
-      row.cells.push_back(NumberCell(sample.yield()));
-      row.cells.push_back(ListCell(sample.not_working, "; "));
-      row.cells.emplace_back(CountOf(sample.senses, ToText(HysteresisSense::kNormal)));
-      row.cells.emplace_back(CountOf(sample.senses, ToText(HysteresisSense::kInverted)));
-      row.cells.emplace_back(one.quantities[kPower].count);
-      for (const Quartiles& quantity : one.quantities) {
-        for (const double value : {quantity.low, quantity.median, quantity.high}) {
-          row.cells.push_back(NumberCell(value));
-        }
-      }
-      row.cells.push_back(TextCell(one.champion));
-      row.cells.push_back(NumberCell(one.champion_efficiency));
-      row.cells.push_back(NumberCell(one.champion_pmp_W));
-      rows.push_back(std::move(row));
-    }
-  }
-  return rows;
 }
 
 std::vector<std::string> SampleAddition::FileNames() const { return {kSamplesCsv, kSamplesLines}; }
@@ -228,18 +205,24 @@ AddedReport SampleAddition::Report() const {
 
 std::vector<ResultFile> SampleAddition::Files() const {
   if (!counter_) return {};
-  const std::vector<ResultColumn> columns = SampleColumns();
-  ResultFile csv = {kSamplesCsv, HeadCsv(columns)};
+  const ColumnList<SampleRow> columns = SampleColumns();
+  const std::vector<ResultColumn> heads = HeadsOf(columns);
+  ResultFile csv = {kSamplesCsv, HeadCsv(heads)};
   ResultFile lines = {kSamplesLines, ""};
-  for (const ResultRow& row : SampleRows(counter_->Summaries())) {
-    csv.text += RowCsv(row, texts_);
-    lines.text += RowJson(columns, row) + "\n";
+  for (const SampleSummary& sample : counter_->Summaries()) {
+    std::vector<SampleDirection> directions = sample.directions;
+    if (directions.empty()) directions.emplace_back();
+    for (SampleDirection& one : directions) {
+      const ResultRow row = {CellsOf(columns, SampleRow{sample, std::move(one)})};
+      csv.text += RowCsv(row, texts_);
+      lines.text += RowJson(heads, row) + "\n";
+    }
   }
   return {csv, lines};
 }
 
 void SampleAddition::AddToSchema(BatchJson* schema) const {
-  if (counter_) (*schema)["samples"] = {{"fields", FieldsJson(SampleColumns())}};
+  if (counter_) (*schema)["samples"] = {{"fields", FieldsJson(HeadsOf(SampleColumns()))}};
 }
 
 }  // namespace lyrefit

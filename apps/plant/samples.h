@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lyrefit/batch/addition.h"
+#include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/result_row.h"
 #include "lyrefit/report/csv.h"
 #include "plant/additions.h"
@@ -19,10 +20,10 @@ namespace lyrefit {
 // quartiles need them.
 class SampleCounter {
  public:
-  explicit SampleCounter(const std::vector<ResultColumn>& columns);
+  explicit SampleCounter(const std::vector<ResultColumn>& columns) : reader_(columns) {}
 
   // Whether the rows have the columns of task `cell`.
-  bool counts() const { return counts_; }
+  bool counts() const { return reader_.Has("sample") && reader_.Has("state"); }
   void Count(const ResultRow& row);
   // In the order of the samples' first rows.
   std::vector<SampleSummary> Summaries() const;
@@ -36,26 +37,16 @@ class SampleCounter {
     SampleSummary summary;
     std::array<Direction, 2> directions;
   };
-  struct DirectionPlaces {
-    std::array<std::size_t, kSampleQuantities.size()> quantities;
-  };
-
-  void CountDirection(const ResultRow& row, const std::string& id, const DirectionPlaces& at,
+  // `prefix`: of the names of the columns of the direction.
+  void CountDirection(const ResultRow& row, const std::string& id, const std::string& prefix,
                       Direction* direction) const;
 
-  // Positions of columns.
-  std::size_t id_, where_, status_, state_, sense_;
-  std::array<DirectionPlaces, 2> at_;
-  bool counts_;
+  RowReader reader_;
   std::map<std::string, std::size_t> places_;  // of the samples, by name
   std::vector<Sample> samples_;
 };
 
-// Columns of samples.csv and samples.jsonl: a row for each sample and direction.
-std::vector<ResultColumn> SampleColumns();
-std::vector<ResultRow> SampleRows(const std::vector<SampleSummary>& samples);
-
-// Adds the files of the samples to the results of task `cell`.
+// Adds the files of the samples, a row for each sample and direction, to the results of task `cell`.
 class SampleAddition final : public BatchAddition {
  public:
   explicit SampleAddition(PlantResults* results) : results_(results) {}

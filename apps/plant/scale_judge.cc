@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/batch/batch_task.h"
-#include "lyrefit/batch/count_rows.h"
+#include "lyrefit/batch/column.h"
 
 namespace lyrefit {
 namespace {
@@ -163,13 +162,6 @@ class GroupJudge {
 
 double Percent(double logarithm) { return 100 * std::expm1(logarithm); }
 
-ResultCell NamesCell(const std::vector<ScaleCause>& causes) {
-  std::vector<std::string> names;
-  names.reserve(causes.size());
-  for (const ScaleCause cause : causes) names.emplace_back(ToText(cause));
-  return ListCell(names);
-}
-
 // Watts that the string gives less than without its cause, at the light of the sweep.
 double LostWatts(const Judged& judged, const ScaleMember& member) {
   const ScaleCause cause = judged.verdict.cause;
@@ -184,91 +176,118 @@ double LostWatts(const Judged& judged, const ScaleMember& member) {
   return member.measured.imp_A * member.measured.vmp_V * std::expm1(-power);
 }
 
-std::vector<ResultCell> CellsOf(const Judged& judged, const ScaleMember& member) {
-  const ScaleVerdict& verdict = judged.verdict;
-  const bool known = std::isfinite(judged.deviation[kScaleVoc]);
-  std::vector<ResultCell> cells;
-  if (verdict.cause == ScaleCause::kNone) {
-    cells.resize(6);
-    if (!member.own_cause.empty()) {
-      cells[3] =
-          TextCell("not judged by its scale, since the curve itself shows " + member.own_cause);
-    }
-  } else {
-    ScaleSize size{verdict.mean.size,
-                   verdict.mean.count,
-                   verdict.mean.of,
-                   Percent(judged.deviation[kScaleIsc]),
-                   Percent(judged.deviation[kScaleVoc]),
-                   judged.partner};
-    const bool named = verdict.cause != ScaleCause::kSomethingElse;
-    cells.push_back(named ? TextCell(ToText(verdict.cause)) : ResultCell());
-    cells.push_back(named ? TextCell(TextOf(verdict.cause).title) : ResultCell());
-    cells.push_back(named ? TextCell(TextOf(verdict.cause).about) : ResultCell());
-    cells.push_back(TextCell(SentenceOf(verdict.cause, size, judged.shared)));
-    cells.push_back(NamesCell(verdict.alternatives));
-    std::vector<std::string> tests;
-    if (!verdict.alternatives.empty()) tests.emplace_back(TextOf(verdict.cause).separate);
-    for (const ScaleCause alternative : verdict.alternatives) {
-      const std::string test = TextOf(alternative).separate;
-      if (std::find(tests.begin(), tests.end(), test) == tests.end()) tests.push_back(test);
-    }
-    cells.push_back(ListCell(tests, "; "));
+struct ScaleRow {
+  const Judged& judged;
+  const ScaleMember& member;
+
+  bool Differs() const { return judged.verdict.cause != ScaleCause::kNone; }
+  bool Named() const { return Differs() && judged.verdict.cause != ScaleCause::kSomethingElse; }
+  // A text of the cause; empty without a name.
+  std::string Text(const char* ScaleCauseText::*text) const {
+    return Named() ? TextOf(judged.verdict.cause).*text : "";
   }
-  const bool named =
-      verdict.cause != ScaleCause::kNone && verdict.cause != ScaleCause::kSomethingElse;
-  cells.push_back(named ? TextCell(TextOf(verdict.cause).action) : ResultCell());
-  cells.push_back(named ? NumberCell(verdict.probability) : ResultCell());
-  cells.push_back(named ? NumberCell(LostWatts(judged, member)) : ResultCell());
-  cells.push_back(named ? ResultCell(judged.shared) : ResultCell());
-  cells.push_back(known && member.own_cause.empty() ? NumberCell(verdict.p_value) : ResultCell());
-  for (const double value : judged.deviation) cells.push_back(NumberCell(Percent(value)));
-  return cells;
+  std::string Sentence() const;
+  std::vector<std::string> Equivalents() const;
+  std::vector<std::string> Tests() const;
+};
+
+std::string ScaleRow::Sentence() const {
+  const std::string& own = member.own_cause;
+  if (!Differs()) {
+    return own.empty() ? "" : "not judged by its scale, since the curve itself shows " + own;
+  }
+  const ScaleVerdict& verdict = judged.verdict;
+  const ScaleSize size{verdict.mean.size,
+                       verdict.mean.count,
+                       verdict.mean.of,
+                       Percent(judged.deviation[kScaleIsc]),
+                       Percent(judged.deviation[kScaleVoc]),
+                       judged.partner};
+  return SentenceOf(verdict.cause, size, judged.shared);
 }
 
-}  // namespace
+std::vector<std::string> ScaleRow::Equivalents() const {
+  std::vector<std::string> names;
+  if (!Differs()) return names;
+  for (const ScaleCause cause : judged.verdict.alternatives) names.push_back(ToText(cause));
+  return names;
+}
 
-std::vector<ResultColumn> ScaleColumns() {
-  constexpr CellType kText = CellType::kText;
-  constexpr CellType kNumber = CellType::kNumber;
-  return {
-      {"plan_cause", "", kText,
+std::vector<std::string> ScaleRow::Tests() const {
+  const ScaleVerdict& verdict = judged.verdict;
+  std::vector<std::string> tests;
+  if (!Differs() || verdict.alternatives.empty()) return tests;
+  tests.emplace_back(TextOf(verdict.cause).separate);
+  for (const ScaleCause alternative : verdict.alternatives) {
+    const std::string test = TextOf(alternative).separate;
+    if (std::find(tests.begin(), tests.end(), test) == tests.end()) tests.push_back(test);
+  }
+  return tests;
+}
+
+const ColumnList<ScaleRow>& JudgedColumns() {
+  using Of = const ScaleRow&;
+  static const ColumnList<ScaleRow> columns = {
+      {"plan_cause", "",
        "the fault by which the string differs from its plan and its neighbours in scale, the most "
        "probable: missing_module, bypassed_substring, reversed_module, disconnected_string, "
        "wrong_module_type, extra_module, cable_resistance, uniform_soiling, light_sensor, "
        "temperature_sensor, exchanged_strings; none: nothing beyond the errors, or nothing that "
-       "one "
-       "of these explains"},
-      {"plan_cause_title", "", kText, "the same in a few words"},
-      {"plan_cause_about", "", kText,
-       "what it belongs to: device; conditions, for a sensor; plan, for a list to be corrected"},
-      {"plan_sentence", "", kText, "the same for a technician, with its size"},
-      {"plan_equivalents", "", kText, "causes that the readings cannot tell from it"},
-      {"plan_separate_by", "", kText, "measurements that would, with '; ' between them"},
-      {"plan_action", "", kText, "the next thing to do about it"},
-      {"plan_probability", "", kNumber, "of the cause, against all others"},
-      {"plan_lost_W", "W", kNumber,
-       "what the string gives less than without the cause, in the light of the sweep"},
-      {"plan_shared", "", CellType::kTruth, "all strings of the combiner have it"},
-      {"plan_p", "", kNumber, "p-value of the difference of a healthy string"},
-      {"plan_Isc_percent", "%", kNumber,
+       "one of these explains",
+       [](Of of) { return of.Named() ? ToText(of.judged.verdict.cause) : ""; }},
+      {"plan_cause_title", "", "the same in a few words",
+       [](Of of) { return of.Text(&ScaleCauseText::title); }},
+      {"plan_cause_about", "",
+       "what it belongs to: device; conditions, for a sensor; plan, for a list to be corrected",
+       [](Of of) { return of.Text(&ScaleCauseText::about); }},
+      {"plan_sentence", "", "the same for a technician, with its size", &ScaleRow::Sentence},
+      {"plan_equivalents", "", "causes that the readings cannot tell from it",
+       [](Of of) { return ListCell(of.Equivalents()); }},
+      {"plan_separate_by", "", "measurements that would, with '; ' between them",
+       [](Of of) { return ListCell(of.Tests(), "; "); }},
+      {"plan_action", "", "the next thing to do about it",
+       [](Of of) { return of.Text(&ScaleCauseText::action); }},
+      {"plan_probability", "", "of the cause, against all others",
+       [](Of of) { return of.Named() ? of.judged.verdict.probability : kUnknown; }},
+      {"plan_lost_W", "W",
+       "what the string gives less than without the cause, in the light of the sweep",
+       [](Of of) { return of.Named() ? LostWatts(of.judged, of.member) : kUnknown; }},
+      {"plan_shared", "", "all strings of the combiner have it",
+       [](Of of) { return of.Named() ? std::optional<bool>(of.judged.shared) : std::nullopt; }},
+      {"plan_p", "", "p-value of the difference of a healthy string",
+       [](Of of) {
+         const bool known = std::isfinite(of.judged.deviation[kScaleVoc]);
+         return known && of.member.own_cause.empty() ? of.judged.verdict.p_value : kUnknown;
+       }},
+      {"plan_Isc_percent", "%",
        "short-circuit current per light against the plan or the median of the combiner, what all "
-       "its "
-       "strings share taken off unless plan_shared"},
-      {"plan_Voc_percent", "%", kNumber, "open-circuit voltage in the same way"},
-      {"plan_FF_percent", "%", kNumber, "fill factor in the same way"},
-      {"plan_Vmp_percent", "%", kNumber,
-       "voltage at maximum power in parts of Voc in the same way"},
-      {"plan_slope_percent", "%", kNumber, "slope times Isc / Voc in the same way"},
+       "its strings share taken off unless plan_shared",
+       [](Of of) { return Percent(of.judged.deviation[kScaleIsc]); }},
+      {"plan_Voc_percent", "%", "open-circuit voltage in the same way",
+       [](Of of) { return Percent(of.judged.deviation[kScaleVoc]); }},
+      {"plan_FF_percent", "%", "fill factor in the same way",
+       [](Of of) { return Percent(of.judged.deviation[kScaleFill]); }},
+      {"plan_Vmp_percent", "%", "voltage at maximum power in parts of Voc in the same way",
+       [](Of of) { return Percent(of.judged.deviation[kScaleVmp]); }},
+      {"plan_slope_percent", "%", "slope times Isc / Voc in the same way",
+       [](Of of) { return Percent(of.judged.deviation[kScaleSlope]); }},
   };
+  return columns;
 }
+
+}  // namespace
+
+std::vector<ResultColumn> ScaleColumns() { return HeadsOf(JudgedColumns()); }
 
 std::vector<std::vector<ResultCell>> ScaleCells(const std::vector<ScaleMember>& group,
                                                 const std::vector<ScaleResidual>& residuals,
                                                 const ScaleErrors& errors, double level) {
   const GroupJudge judge(group, residuals, errors, level);
   std::vector<std::vector<ResultCell>> cells;
-  for (std::size_t i = 0; i < group.size(); ++i) cells.push_back(CellsOf(judge.Judge(i), group[i]));
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const Judged judged = judge.Judge(i);
+    cells.push_back(CellsOf(JudgedColumns(), ScaleRow{judged, group[i]}));
+  }
   return cells;
 }
 

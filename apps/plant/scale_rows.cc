@@ -9,72 +9,32 @@
 
 namespace lyrefit {
 
-ScaleReader::ScaleReader(const std::vector<ResultColumn>& columns) {
-  constexpr const char* kNames[] = {"id",
-                                    "irradiance_Wm2",
-                                    "temperature_C",
-                                    "cells_in_series",
-                                    "Isc_A",
-                                    "Voc_V",
-                                    "Imp_A",
-                                    "Vmp_V",
-                                    kSlopeColumn,
-                                    "plan_module",
-                                    "plan_modules_in_series",
-                                    "plan_strings_in_parallel",
-                                    "plan_bypass_diodes",
-                                    "plan_cells_in_series",
-                                    "plan_Isc_A",
-                                    "plan_Voc_V",
-                                    "plan_Imp_A",
-                                    "plan_Vmp_V",
-                                    "plan_slope_ohm",
-                                    "cause",
-                                    "cause_about"};
-  static_assert(std::size(kNames) == kKnown);
-  for (int known = 0; known < kKnown; ++known) {
-    places_[known] = ColumnPlace(columns, kNames[known]);
-  }
-  reads_ = places_[kSlope] != kNoColumn;
-}
-
 ScaleMember ScaleReader::Read(const ResultRow& row) const {
-  const auto cell = [&](Known known) {
-    return places_[known] < row.cells.size() ? row.cells[places_[known]] : ResultCell();
-  };
-  const auto text = [&](Known known) {
-    const ResultCell value = cell(known);
-    const auto* const found = std::get_if<std::string>(&value);
-    return found == nullptr ? std::string() : *found;
-  };
-  const auto number = [&](Known known) {
-    const ResultCell value = cell(known);
-    if (const auto* const found = std::get_if<double>(&value)) return *found;
-    const auto* const whole = std::get_if<std::int64_t>(&value);
-    return whole == nullptr ? kUnknown : static_cast<double>(*whole);
-  };
-  const auto count = [&](Known known, int usual) {
-    const double value = number(known);
+  const auto text = [&](const char* name) { return reader_.Text(row, name); };
+  const auto number = [&](const char* name) { return reader_.Number(row, name); };
+  const auto count = [&](const char* name, int usual) {
+    const double value = number(name);
     return std::isfinite(value) ? static_cast<int>(value) : usual;
   };
   ScaleMember member;
-  member.id = text(kId);
-  member.measured = {number(kIsc), number(kVoc), number(kImp), number(kVmp), number(kSlope)};
-  member.planned = {number(kPlanIsc), number(kPlanVoc), number(kPlanImp), number(kPlanVmp),
-                    number(kPlanSlope)};
-  member.irradiance_W_m2 = number(kLight);
-  member.temperature_C = number(kTemperature);
-  const double planned_cells = number(kPlanCells);
-  member.cells = std::isfinite(planned_cells) ? planned_cells : number(kCells);
-  member.modules = count(kModules, 0);
-  member.strings = count(kStrings, 0);
-  member.bypass_diodes = count(kDiodes, 3);
-  member.module = text(kModule);
+  member.id = text("id");
+  member.measured = {number("Isc_A"), number("Voc_V"), number("Imp_A"), number("Vmp_V"),
+                     number(kSlopeColumn)};
+  member.planned = {number("plan_Isc_A"), number("plan_Voc_V"), number("plan_Imp_A"),
+                    number("plan_Vmp_V"), number("plan_slope_ohm")};
+  member.irradiance_W_m2 = number("irradiance_Wm2");
+  member.temperature_C = number("temperature_C");
+  const double planned_cells = number("plan_cells_in_series");
+  member.cells = std::isfinite(planned_cells) ? planned_cells : number("cells_in_series");
+  member.modules = count("plan_modules_in_series", 0);
+  member.strings = count("plan_strings_in_parallel", 0);
+  member.bypass_diodes = count("plan_bypass_diodes", 3);
+  member.module = text("plan_module");
   // Fewer cells in series, a resistance and what a fill factor lacks may be faults of the scale, of
   // which the plan says more than one curve.
-  const std::string cause = text(kCause);
+  const std::string cause = text("cause");
   const bool own = cause != "bypass_short" && !MayBeOfScale(cause);
-  if (text(kAbout) == "device" && own) member.own_cause = cause;
+  if (text("cause_about") == "device" && own) member.own_cause = cause;
   return member;
 }
 

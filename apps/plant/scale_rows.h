@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "lyrefit/batch/addition.h"
+#include "lyrefit/batch/count_rows.h"
 #include "plant/additions.h"
 #include "plant/scale_judge.h"
 
@@ -16,38 +16,13 @@ namespace lyrefit {
 // The members of a group of rows.
 class ScaleReader {
  public:
-  explicit ScaleReader(const std::vector<ResultColumn>& columns);
+  explicit ScaleReader(const std::vector<ResultColumn>& columns) : reader_(columns) {}
   // Whether the rows have what the comparison needs: those of WithPlan.
-  bool reads() const { return reads_; }
+  bool reads() const { return reader_.Has(kSlopeColumn); }
   ScaleMember Read(const ResultRow& row) const;
 
  private:
-  enum Known {
-    kId,
-    kLight,
-    kTemperature,
-    kCells,
-    kIsc,
-    kVoc,
-    kImp,
-    kVmp,
-    kSlope,
-    kModule,
-    kModules,
-    kStrings,
-    kDiodes,
-    kPlanCells,
-    kPlanIsc,
-    kPlanVoc,
-    kPlanImp,
-    kPlanVmp,
-    kPlanSlope,
-    kCause,
-    kAbout,
-    kKnown
-  };
-  std::array<std::size_t, kKnown> places_{};
-  bool reads_ = false;
+  RowReader reader_;
 };
 
 // Adds the judgement of the scale to rows that have what it needs.

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
-#include <variant>
 
 #include "lyrefit/base/append.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/batch/batch_task.h"
-#include "lyrefit/batch/count_rows.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/batch/string_pages.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -87,6 +84,30 @@ std::string Shown(const std::string& from) {
                           : "by its neighbours";
 }
 
+const ColumnList<StringVerdict>& VerdictColumns() {
+  static const ColumnList<StringVerdict> columns = {
+      {"string_to_do", "",
+       "the verdict of the string, of its curve, its plan, its neighbours and its rating together: "
+       "nothing, inspect (it passes and shows a fault), work, correct the plan, or measure again",
+       [](const StringVerdict& of) { return ToText(of.to_do); }},
+      {"string_cause", "", "its cause: the id of cause or of plan_cause; empty: none is named",
+       &StringVerdict::cause},
+      {"string_cause_title", "", "the same in a few words", &StringVerdict::title},
+      {"string_cause_about", "",
+       "what it belongs to: device; sweep, instrument or conditions, to be measured again; plan; "
+       "or unknown",
+       &StringVerdict::about},
+      {"string_cause_from", "", "what shows it: curve, plan or neighbours", &StringVerdict::from},
+      {"string_sentence", "", "the same for a technician, with its size", &StringVerdict::sentence},
+      {"string_action", "", "the next thing to do about it", &StringVerdict::action},
+      {"string_probability", "", "of the cause, against all others", &StringVerdict::probability},
+      {"string_lost_W", "W",
+       "what the string gives less than without the cause, in the light of the sweep",
+       &StringVerdict::lost_W},
+  };
+  return columns;
+}
+
 }  // namespace
 
 double LostBy(const StringVerdict& verdict, double below_rating_W) {
@@ -101,89 +122,49 @@ bool MayBeOfScale(const std::string& cause) {
   return IsOf(cause, {"series_resistance", "fill_factor"});
 }
 
-StringJudge::StringJudge(const std::vector<ResultColumn>& columns) {
-  constexpr const char* kNames[] = {"status",
-                                    "zone",
-                                    "cause",
-                                    "cause_title",
-                                    "cause_about",
-                                    "cause_sentence",
-                                    "action",
-                                    "probability",
-                                    "recoverable_power_W",
-                                    "equivalents",
-                                    "separate_by",
-                                    "plan_cause",
-                                    "plan_cause_title",
-                                    "plan_cause_about",
-                                    "plan_sentence",
-                                    "plan_action",
-                                    "plan_probability",
-                                    "plan_lost_W",
-                                    "plan_equivalents",
-                                    "plan_separate_by",
-                                    "plan_modules_in_series",
-                                    "group_outlier"};
-  static_assert(std::size(kNames) == kKnown);
-  const auto has = [&](Known known) { return places_[known] < columns.size(); };
-  for (int known = 0; known < kKnown; ++known) {
-    places_[known] = ColumnPlace(columns, kNames[known]);
-  }
-  judges_ = has(kZone) || has(kPlanCause);
-}
-
-std::string StringJudge::Text(const ResultRow& row, Known column) const {
-  if (places_[column] >= row.cells.size()) return "";
-  const auto* const text = std::get_if<std::string>(&row.cells[places_[column]]);
-  return text == nullptr ? "" : *text;
-}
-
-double StringJudge::Number(const ResultRow& row, Known column) const {
-  if (places_[column] >= row.cells.size()) return kUnknown;
-  const auto* const number = std::get_if<double>(&row.cells[places_[column]]);
-  return number == nullptr ? kUnknown : *number;
-}
+StringJudge::StringJudge(const std::vector<ResultColumn>& columns)
+    : reader_(columns), judges_(reader_.Has("zone") || reader_.Has("plan_cause")) {}
 
 StringVerdict StringJudge::OfCurve(const ResultRow& row) const {
   StringVerdict verdict;
-  verdict.cause = Text(row, kCause);
+  verdict.cause = reader_.Text(row, "cause");
   if (IsNoCause(verdict.cause)) verdict.cause.clear();
   if (verdict.cause.empty()) return verdict;
   verdict.from = "curve";
-  verdict.title = Text(row, kTitle);
-  verdict.about = Text(row, kAbout);
-  verdict.sentence = Text(row, kSentence);
-  verdict.action = Text(row, kAction);
-  verdict.equivalents = Text(row, kEquivalents);
-  verdict.separate_by = Text(row, kSeparate);
-  verdict.probability = Number(row, kProbability);
-  verdict.lost_W = Number(row, kRecoverable);
+  verdict.title = reader_.Text(row, "cause_title");
+  verdict.about = reader_.Text(row, "cause_about");
+  verdict.sentence = reader_.Text(row, "cause_sentence");
+  verdict.action = reader_.Text(row, "action");
+  verdict.equivalents = reader_.Text(row, "equivalents");
+  verdict.separate_by = reader_.Text(row, "separate_by");
+  verdict.probability = reader_.Number(row, "probability");
+  verdict.lost_W = reader_.Number(row, "recoverable_power_W");
   return verdict;
 }
 
 StringVerdict StringJudge::OfPlan(const ResultRow& row) const {
   StringVerdict verdict;
-  const std::string sentence = Text(row, kPlanSentence);
+  const std::string sentence = reader_.Text(row, "plan_sentence");
   // Without deviation the sentence says why the string was not compared.
-  if (Text(row, kPlanCause).empty() && sentence.rfind("not judged", 0) == 0) return verdict;
+  if (reader_.Text(row, "plan_cause").empty() && sentence.rfind("not judged", 0) == 0)
+    return verdict;
   verdict.sentence = sentence;
   if (sentence.empty()) return verdict;
-  const bool planned = places_[kPlanModules] < row.cells.size() &&
-                       !std::holds_alternative<std::monostate>(row.cells[places_[kPlanModules]]);
+  const bool planned = std::isfinite(reader_.Number(row, "plan_modules_in_series"));
   verdict.from = planned ? "plan" : "neighbours";
-  verdict.cause = Text(row, kPlanCause);
-  verdict.title = Text(row, kPlanTitle);
-  verdict.about = Text(row, kPlanAbout);
-  verdict.action = Text(row, kPlanAction);
-  verdict.equivalents = Text(row, kPlanEquivalents);
-  verdict.separate_by = Text(row, kPlanSeparate);
-  verdict.probability = Number(row, kPlanProbability);
-  verdict.lost_W = Number(row, kPlanLost);
+  verdict.cause = reader_.Text(row, "plan_cause");
+  verdict.title = reader_.Text(row, "plan_cause_title");
+  verdict.about = reader_.Text(row, "plan_cause_about");
+  verdict.action = reader_.Text(row, "plan_action");
+  verdict.equivalents = reader_.Text(row, "plan_equivalents");
+  verdict.separate_by = reader_.Text(row, "plan_separate_by");
+  verdict.probability = reader_.Number(row, "plan_probability");
+  verdict.lost_W = reader_.Number(row, "plan_lost_W");
   return verdict;
 }
 
 bool StringJudge::IsFine(const ResultRow& row) const {
-  const std::string status = Text(row, kStatus);
+  const std::string status = reader_.Text(row, "status");
   return status.empty() || status == "fine";
 }
 
@@ -192,8 +173,8 @@ StringVerdict StringJudge::Judge(const ResultRow& row) const {
   StringVerdict curve = OfCurve(row);
   StringVerdict plan = OfPlan(row);
   StringVerdict verdict = PlanGoesFirst(curve, plan) ? std::move(plan) : std::move(curve);
-  verdict.zone = Text(row, kZone);
-  verdict.outlier = Text(row, kOutlier);
+  verdict.zone = reader_.Text(row, "zone");
+  verdict.outlier = reader_.Text(row, "group_outlier");
   verdict.to_do = ToDoOf(verdict);
   const bool nameless = verdict.cause.empty() || IsLeftOut(verdict);
   if (nameless && (verdict.to_do == ToDo::kWork || verdict.to_do == ToDo::kInspect)) {
@@ -204,34 +185,10 @@ StringVerdict StringJudge::Judge(const ResultRow& row) const {
   return verdict;
 }
 
-std::vector<ResultColumn> StringColumns() {
-  constexpr CellType kText = CellType::kText;
-  constexpr CellType kNumber = CellType::kNumber;
-  return {
-      {"string_to_do", "", kText,
-       "the verdict of the string, of its curve, its plan, its neighbours and its rating together: "
-       "nothing, inspect (it passes and shows a fault), work, correct the plan, or measure again"},
-      {"string_cause", "", kText,
-       "its cause: the id of cause or of plan_cause; empty: none is named"},
-      {"string_cause_title", "", kText, "the same in a few words"},
-      {"string_cause_about", "", kText,
-       "what it belongs to: device; sweep, instrument or conditions, to be measured again; plan; "
-       "or "
-       "unknown"},
-      {"string_cause_from", "", kText, "what shows it: curve, plan or neighbours"},
-      {"string_sentence", "", kText, "the same for a technician, with its size"},
-      {"string_action", "", kText, "the next thing to do about it"},
-      {"string_probability", "", kNumber, "of the cause, against all others"},
-      {"string_lost_W", "W", kNumber,
-       "what the string gives less than without the cause, in the light of the sweep"},
-  };
-}
+std::vector<ResultColumn> StringColumns() { return HeadsOf(VerdictColumns()); }
 
 std::vector<ResultCell> StringCells(const StringVerdict& verdict) {
-  return {
-      TextCell(ToText(verdict.to_do)), TextCell(verdict.cause),         TextCell(verdict.title),
-      TextCell(verdict.about),         TextCell(verdict.from),          TextCell(verdict.sentence),
-      TextCell(verdict.action),        NumberCell(verdict.probability), NumberCell(verdict.lost_W)};
+  return CellsOf(VerdictColumns(), verdict);
 }
 
 std::vector<std::string> SentencesOf(const StringVerdict& verdict) {
@@ -276,9 +233,7 @@ Expected<void> StringAddition::Open(const RowsInput& input) {
   judge_.emplace(input.so_far);
   if (!judge_->judges()) judge_.reset();
   folder_ = input.folder;
-  id_ = ColumnPlace(input.so_far, "id");
-  page_ = ColumnPlace(input.so_far, "page");
-  below_ = ColumnPlace(input.so_far, "below_rating_W");
+  reader_ = RowReader(input.so_far);
   counts_.clear();
   visits_.clear();
   rows_ = 0;
@@ -298,8 +253,9 @@ Expected<void> StringAddition::Add(RowGroup* group) {
       continue;
     }
     const StringVerdict verdict = judge_->Judge(row);
-    if (const auto* const page = CellAt<std::string>(row, page_)) {
-      TRY(AddToStringPage(folder_, *page, SentencesOf(verdict), "From the curve alone:"));
+    const std::string page = reader_.Text(row, "page");
+    if (!page.empty()) {
+      TRY(AddToStringPage(folder_, page, SentencesOf(verdict), "From the curve alone:"));
     }
     List(row, verdict);
     Append(StringCells(verdict), &row.cells);
@@ -310,9 +266,8 @@ Expected<void> StringAddition::Add(RowGroup* group) {
 void StringAddition::List(const ResultRow& row, const StringVerdict& verdict) {
   ++counts_[verdict.to_do];
   if (!verdict.NeedsAVisit()) return;
-  const auto* const id = CellAt<std::string>(row, id_);
-  const double below_W = below_ == kNoColumn ? kUnknown : NumberAt(row, below_);
-  Visit visit = {id == nullptr ? "" : *id, verdict, LostBy(verdict, below_W)};
+  Visit visit = {reader_.Text(row, "id"), verdict,
+                 LostBy(verdict, reader_.Number(row, "below_rating_W"))};
   // What needs work goes first, then what loses most.
   const auto before = [](const Visit& one, const Visit& other) {
     if (one.verdict.to_do != other.verdict.to_do) return one.verdict.to_do < other.verdict.to_do;

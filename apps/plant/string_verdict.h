@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/batch/addition.h"
+#include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/result_row.h"
 
 namespace lyrefit {
@@ -67,37 +67,10 @@ class StringJudge {
   StringVerdict Judge(const ResultRow& row) const;
 
  private:
-  enum Known {
-    kStatus,
-    kZone,
-    kCause,
-    kTitle,
-    kAbout,
-    kSentence,
-    kAction,
-    kProbability,
-    kRecoverable,
-    kEquivalents,
-    kSeparate,
-    kPlanCause,
-    kPlanTitle,
-    kPlanAbout,
-    kPlanSentence,
-    kPlanAction,
-    kPlanProbability,
-    kPlanLost,
-    kPlanEquivalents,
-    kPlanSeparate,
-    kPlanModules,
-    kOutlier,
-    kKnown
-  };
-  std::string Text(const ResultRow& row, Known column) const;
-  double Number(const ResultRow& row, Known column) const;
   StringVerdict OfCurve(const ResultRow& row) const;
   StringVerdict OfPlan(const ResultRow& row) const;
 
-  std::size_t places_[kKnown] = {};
+  RowReader reader_;
   bool judges_ = false;
 };
 
@@ -139,7 +112,7 @@ class StringAddition final : public BatchAddition {
 
   std::optional<StringJudge> judge_;
   std::string folder_;
-  std::size_t id_ = 0, page_ = 0, below_ = 0;  // places of columns
+  RowReader reader_;
   std::map<ToDo, std::int64_t> counts_;
   std::int64_t rows_ = 0;
   std::vector<Visit> visits_;  // the first kVisits, in the order of a tour

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/append.h"
-#include "lyrefit/batch/batch_task.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/batch/pixel_state.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/devices/cell_parts.h"
@@ -18,50 +18,6 @@
 namespace lyrefit {
 namespace {
 
-std::vector<ResultColumn> CellColumns() {
-  constexpr CellType kText = CellType::kText;
-  constexpr CellType kNumber = CellType::kNumber;
-  std::vector<ResultColumn> columns = {
-      {"sample", "", kText, "the sample of the pixel, by its id"},
-      {"state", "", kText, "working, shorted, dead, weak, or unlit: measured in the dark only"},
-      {"sweeps", "", CellType::kWhole, "sweeps of the pixel, of all lights and directions"},
-      {"area_cm2", "cm2", kNumber, "area of the pixel"},
-      {"direction", "", kText, "the direction of more power, which the key points are of"},
-      {"jsc_mA_cm2", "mA/cm2", kNumber, "short-circuit current of that sweep over the area"},
-      {"efficiency", "", kNumber, "of that sweep, a fraction"},
-  };
-  for (const char* direction : {"forward", "reverse"}) {
-    for (const CellField& field : CellFields()) {
-      columns.push_back({std::string(direction) + "_" + field.name, field.unit, kNumber,
-                         std::string(field.doc) + ", " + direction + " sweep"});
-    }
-    columns.push_back({std::string(direction) + "_void", "", kText,
-                       std::string("why n and Rs of the fit are void, ") + direction + " sweep"});
-  }
-  for (ResultColumn column : std::vector<ResultColumn>{
-           {"hysteresis", "", kText, "none, normal (reverse gives more power) or inverted"},
-           {"hysteresis_index_power", "", kNumber, "(Pmp reverse - Pmp forward) / Pmp reverse"},
-           {"hysteresis_gap_percent", "%", kNumber,
-            "rms of the difference of the directions, of Jsc"},
-           {"n_over_light", "", kNumber, "ideality from Voc over light"},
-           {"n_dark", "", kNumber, "least local ideality of the dark curve"},
-           {"pseudo_fill_factor", "", kNumber, "fill factor without series resistance"},
-           {"superposition", "", kText, "of the lit and dark curve: holds or departs"},
-           {"warnings", "", kText, "in plain words, with '; ' between them"}}) {
-    columns.push_back(std::move(column));
-  }
-  return columns;
-}
-
-std::vector<ResultCell> CellsOfSweep(const CellSweep* sweep) {
-  std::vector<ResultCell> cells;
-  for (const CellField& field : CellFields()) {
-    cells.push_back(sweep == nullptr ? ResultCell() : NumberCell(field.value(*sweep)));
-  }
-  cells.push_back(sweep == nullptr ? ResultCell() : TextCell(VoidReasons(*sweep)));
-  return cells;
-}
-
 // The pair of the two sweeps; null if there is none.
 const DirectionPair* PairOf(const CellReport& report, const BrightestSweeps& sweeps) {
   for (const DirectionPair& pair : report.pairs) {
@@ -73,33 +29,83 @@ const DirectionPair* PairOf(const CellReport& report, const BrightestSweeps& swe
   return nullptr;
 }
 
-std::vector<ResultCell> CellsOf(const std::string& sample, const CellReport& report,
-                                const JudgedPixel& judged) {
-  const BrightestSweeps sweeps = BrightestSweepsOf(report);
-  const CellSweep* const best = sweeps.better();
-  std::vector<ResultCell> cells = {
-      TextCell(sample),
-      TextCell(ToText(judged.state)),
-      static_cast<std::int64_t>(report.sweeps.size()),
-      NumberCell(report.area_cm2),
-      best == nullptr ? ResultCell() : TextCell(ToText(best->direction)),
-      best == nullptr ? ResultCell() : NumberCell(best->jsc_mA_cm2),
-      best == nullptr ? ResultCell() : NumberCell(best->efficiency)};
-  Append(CellsOfSweep(sweeps.forward), &cells);
-  Append(CellsOfSweep(sweeps.reverse), &cells);
-  const DirectionPair* const pair = PairOf(report, sweeps);
-  cells.push_back(pair == nullptr ? ResultCell() : TextCell(ToText(pair->sense)));
-  cells.push_back(pair == nullptr ? ResultCell() : NumberCell(pair->index_power));
-  cells.push_back(pair == nullptr ? ResultCell() : NumberCell(pair->gap_percent));
-  const bool over_light = !report.over_light.empty();
-  cells.push_back(over_light ? NumberCell(report.over_light.front().junction_n()) : ResultCell());
-  cells.push_back(report.dark ? NumberCell(report.dark->least_n) : ResultCell());
-  cells.push_back(NumberCell(report.pseudo.value));
-  cells.push_back(!report.superposition
-                      ? ResultCell()
-                      : TextCell(report.superposition->departs ? "departs" : "holds"));
-  cells.push_back(ListCell(report.warnings, "; "));
-  return cells;
+struct CellRow {
+  CellRow(std::string name, const CellReport& of, const JudgedPixel& pixel)
+      : sample(std::move(name)),
+        report(of),
+        judged(pixel),
+        sweeps(BrightestSweepsOf(of)),
+        best(sweeps.better()),
+        pair(PairOf(of, sweeps)) {}
+
+  std::string sample;
+  const CellReport& report;
+  const JudgedPixel& judged;
+  BrightestSweeps sweeps;
+  const CellSweep* best;      // null: none
+  const DirectionPair* pair;  // likewise
+};
+
+void AddSweepColumns(const std::string& direction, const CellSweep* BrightestSweeps::*which,
+                     ColumnList<CellRow>* columns) {
+  for (const CellField& field : CellFields()) {
+    columns->emplace_back(direction + "_" + field.name, field.unit,
+                          std::string(field.doc) + ", " + direction + " sweep",
+                          [which, value = field.value](const CellRow& of) {
+                            const CellSweep* const sweep = of.sweeps.*which;
+                            return sweep == nullptr ? kUnknown : value(*sweep);
+                          });
+  }
+  columns->emplace_back(direction + "_void", "",
+                        "why n and Rs of the fit are void, " + direction + " sweep",
+                        [which](const CellRow& of) {
+                          const CellSweep* const sweep = of.sweeps.*which;
+                          return sweep == nullptr ? "" : VoidReasons(*sweep);
+                        });
+}
+
+ColumnList<CellRow> CellColumns() {
+  using Of = const CellRow&;
+  ColumnList<CellRow> columns = {
+      {"sample", "", "the sample of the pixel, by its id", &CellRow::sample},
+      {"state", "", "working, shorted, dead, weak, or unlit: measured in the dark only",
+       [](Of of) { return ToText(of.judged.state); }},
+      {"sweeps", "", "sweeps of the pixel, of all lights and directions",
+       [](Of of) { return of.report.sweeps.size(); }},
+      {"area_cm2", "cm2", "area of the pixel", [](Of of) { return of.report.area_cm2; }},
+      {"direction", "", "the direction of more power, which the key points are of",
+       [](Of of) { return of.best ? ToText(of.best->direction) : ""; }},
+      {"jsc_mA_cm2", "mA/cm2", "short-circuit current of that sweep over the area",
+       [](Of of) { return of.best ? of.best->jsc_mA_cm2 : kUnknown; }},
+      {"efficiency", "", "of that sweep, a fraction",
+       [](Of of) { return of.best ? of.best->efficiency : kUnknown; }},
+  };
+  AddSweepColumns("forward", &BrightestSweeps::forward, &columns);
+  AddSweepColumns("reverse", &BrightestSweeps::reverse, &columns);
+  Append({{"hysteresis", "", "none, normal (reverse gives more power) or inverted",
+           [](Of of) { return of.pair ? ToText(of.pair->sense) : ""; }},
+          {"hysteresis_index_power", "", "(Pmp reverse - Pmp forward) / Pmp reverse",
+           [](Of of) { return of.pair ? of.pair->index_power : kUnknown; }},
+          {"hysteresis_gap_percent", "%", "rms of the difference of the directions, of Jsc",
+           [](Of of) { return of.pair ? of.pair->gap_percent : kUnknown; }},
+          {"n_over_light", "", "ideality from Voc over light",
+           [](Of of) {
+             const auto& lights = of.report.over_light;
+             return lights.empty() ? kUnknown : lights.front().junction_n();
+           }},
+          {"n_dark", "", "least local ideality of the dark curve",
+           [](Of of) { return of.report.dark ? of.report.dark->least_n : kUnknown; }},
+          {"pseudo_fill_factor", "", "fill factor without series resistance",
+           [](Of of) { return of.report.pseudo.value; }},
+          {"superposition", "", "of the lit and dark curve: holds or departs",
+           [](Of of) {
+             if (!of.report.superposition) return "";
+             return of.report.superposition->departs ? "departs" : "holds";
+           }},
+          {"warnings", "", "in plain words, with '; ' between them",
+           [](Of of) { return ListCell(of.report.warnings, "; "); }}},
+         &columns);
+  return columns;
 }
 
 // All curves of the cell.
@@ -114,25 +120,26 @@ CurveSet SetOfCell(const BatchCurve& cell) {
 BatchTaskType CellTask(const CellOptions& asked, const PixelOptions& pixels) {
   CellOptions options = asked;
   options.threads = 1;
+  const ColumnList<CellRow> columns = CellColumns();
   BatchTaskType task;
   task.name = "cell";
-  task.columns = CellColumns();
+  task.columns = HeadsOf(columns);
   task.options = NonDefaults(options, kCellOptionTable);
   AppendNonDefaults(pixels, kPixelOptionTable, &task.options);
   task.options.push_back({kPixelCriterion, PixelCriterion(pixels), ""});
-  task.run = [options, pixels](const BatchCurve& curve, std::uint64_t /*seed*/,
-                               const Observer& observer) {
+  task.run = [options, pixels, columns](const BatchCurve& curve, std::uint64_t /*seed*/,
+                                        const Observer& observer) {
     const CurveSet set = SetOfCell(curve);
     Expected<CellReport> report = DescribeCell(set, options, observer);
     if (!report) return TaskResult{RowStatus::kBroken, report.error().message, {}, false};
     const bool all_dark = std::all_of(set.curves.begin(), set.curves.end(), IsStatedDark);
     const JudgedPixel judged = JudgePixel(*report, all_dark, pixels);
     const bool fails = judged.state != PixelState::kWorking && judged.state != PixelState::kUnlit;
+    const CellRow row(SampleOfCell(curve.id, curve.curve->source), *report, judged);
     TaskResult result{fails ? RowStatus::kNotUsable : RowStatus::kFine, judged.reason,
-                      CellsOf(SampleOfCell(curve.id, curve.curve->source), *report, judged),
-                      report->interrupted};
+                      CellsOf(columns, row), report->interrupted};
     result.failed = fails;
-    if (const CellSweep* best = BrightestSweepsOf(*report).better()) result.key_points = best->key;
+    if (row.best != nullptr) result.key_points = row.best->key;
     result.page =
         [report = std::make_shared<const CellReport>(std::move(*report))](const PageOptions& page) {
           return DrawPage(CellDocument(*report), CellJson(*report), page);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/reasons.h"
 
 namespace lyrefit {
@@ -12,30 +13,52 @@ std::size_t ColumnPlace(const std::vector<ResultColumn>& columns, const std::str
   return found == columns.end() ? kNoColumn : static_cast<std::size_t>(found - columns.begin());
 }
 
-RowCounter::RowCounter(const std::vector<ResultColumn>& columns)
-    : status_(ColumnPlace(columns, "status")),
-      reason_(ColumnPlace(columns, "reason")),
-      where_(ColumnPlace(columns, "where")),
-      zone_(ColumnPlace(columns, "zone")),
-      cause_(ColumnPlace(columns, "cause")),
-      about_(ColumnPlace(columns, "cause_about")) {}
+RowReader::RowReader(const std::vector<ResultColumn>& columns) {
+  for (std::size_t k = 0; k < columns.size(); ++k) places_.try_emplace(columns[k].name, k);
+}
+
+const ResultCell* RowReader::Find(const ResultRow& row, std::string_view name) const {
+  const auto found = places_.find(name);
+  const bool there = found != places_.end() && found->second < row.cells.size();
+  return there ? &row.cells[found->second] : nullptr;
+}
+
+std::string RowReader::Text(const ResultRow& row, std::string_view name) const {
+  const auto* const text = std::get_if<std::string>(Find(row, name));
+  return text == nullptr ? "" : *text;
+}
+
+double RowReader::Number(const ResultRow& row, std::string_view name) const {
+  const ResultCell* const cell = Find(row, name);
+  if (const auto* const number = std::get_if<double>(cell)) return *number;
+  const auto* const whole = std::get_if<std::int64_t>(cell);
+  return whole == nullptr ? kUnknown : static_cast<double>(*whole);
+}
+
+bool RowReader::Truth(const ResultRow& row, std::string_view name) const {
+  const auto* const truth = std::get_if<bool>(Find(row, name));
+  return truth != nullptr && *truth;
+}
 
 void RowCounter::Count(const ResultRow& row) {
+  const auto add = [&](const char* name, std::map<std::string, std::int64_t>* counts) {
+    const std::string text = reader_.Text(row, name);
+    if (!text.empty()) ++(*counts)[text];
+  };
   ++counts_.rows;
-  if (const auto* status = CellAt<std::string>(row, status_)) ++counts_.statuses[*status];
-  if (const auto* zone = CellAt<std::string>(row, zone_)) ++counts_.zones[*zone];
-  if (const auto* cause = CellAt<std::string>(row, cause_)) ++counts_.causes[*cause];
-  if (const auto* about = CellAt<std::string>(row, about_)) ++counts_.abouts[*about];
-  const auto* const reason = CellAt<std::string>(row, reason_);
-  if (reason == nullptr) return;
-  std::string kind = WithoutNumbers(*reason);
+  add("status", &counts_.statuses);
+  add("zone", &counts_.zones);
+  add("cause", &counts_.causes);
+  add("cause_about", &counts_.abouts);
+  const std::string reason = reader_.Text(row, "reason");
+  if (reason.empty()) return;
+  std::string kind = WithoutNumbers(reason);
   auto& reasons = counts_.reasons;
   if (reasons.count(kind) == 0 && reasons.size() >= kMostReasons) kind = kOthers;
   ReasonCount& count = reasons[kind];
-  const auto* const where = CellAt<std::string>(row, where_);
   if (count.rows++ > 0) return;
-  count.first = *reason;
-  if (where != nullptr) count.where = *where;
+  count.first = reason;
+  count.where = reader_.Text(row, "where");
 }
 
 }  // namespace lyrefit

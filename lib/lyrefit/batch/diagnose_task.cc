@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/batch/batch_task.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/documents.h"
@@ -11,79 +11,72 @@
 namespace lyrefit {
 namespace {
 
-std::vector<ResultColumn> DiagnoseColumns() {
-  constexpr CellType kText = CellType::kText;
-  constexpr CellType kNumber = CellType::kNumber;
-  return {
-      {"cause", "", kText,
-       "what the model gets wrong, a fault of the device before one of the measurement: its id; "
-       "else "
-       "the first of device_findings, which also goes before single wrong readings; empty: "
-       "nothing"},
-      {"cause_title", "", kText, "the same in a few words"},
-      {"cause_about", "", kText,
-       "what it belongs to: device; or a measurement to be repeated: sweep, instrument, "
-       "conditions; "
-       "or unknown"},
-      {"cause_sentence", "", kText, "the same for a technician, with its size"},
-      {"equivalents", "", kText, "ids that these readings cannot tell from it"},
-      {"separate_by", "", kText, "measurements that would, with '; ' between them"},
-      {"action", "", kText, "the next thing to do about it"},
-      {"probability", "", kNumber, "that this cause, and no other, is there"},
-      {"causes", "", kText, "ids of all causes, the most certain first"},
-      {"below_floor", "", kText, "ids of what is there too but too small to act on"},
-      {"unexplained", "", CellType::kTruth,
-       "something is there that no known cause fits; where no cause is named, the model misses "
-       "more than it misses of healthy modules"},
-      {"lack_of_fit_percent", "%", kNumber,
-       "of the readings from the model beyond noise, root mean square in percent of Isc"},
-      {"power_effect_percent", "%", kNumber,
-       "of the cause on Pmax: what the model gets wrong without it, in percent; of a device "
-       "finding what it costs"},
-      {"recoverable_power_W", "W", kNumber,
-       "what the device would give more without the cause; empty where only a lower limit is "
-       "known"},
-      {"recoverable_power_W_low_95", "W", kNumber, "its 95 % interval, or that lower limit"},
-      {"recoverable_power_W_high_95", "W", kNumber, "its 95 % interval"},
-      {"device_findings", "", kText,
-       "of leak, ideality, series_resistance what lies above healthy devices, the largest loss "
-       "first"},
-      {"verdict", "", kText, "the diagnosis in one sentence"},
-      {"warnings", "", kText, "in plain words, with '; ' between them"},
-  };
-}
+struct DiagnoseRow {
+  const Diagnosis& diagnosis;
+  Cause cause;  // the main one
+};
 
-std::vector<std::string> Ids(const std::vector<Cause>& causes) {
+template <class Named>
+ResultCell IdsCell(const std::vector<Named>& all) {
   std::vector<std::string> ids;
-  ids.reserve(causes.size());
-  for (const Cause& cause : causes) ids.push_back(cause.id);
-  return ids;
+  for (const Named& one : all) ids.push_back(one.id);
+  return ListCell(ids);
 }
 
-std::vector<ResultCell> DiagnoseCells(const Diagnosis& diagnosis) {
-  const Verdict& verdict = diagnosis.verdict;
-  const Cause cause = MainCause(diagnosis);
-  std::vector<std::string> findings;
-  for (const DeviceFinding& finding : diagnosis.device_findings) findings.push_back(finding.id);
-  return {TextCell(cause.id),
-          TextCell(cause.title),
-          TextCell(cause.group),
-          TextCell(cause.sentence),
-          ListCell(cause.equivalents),
-          ListCell(cause.separate_by, "; "),
-          TextCell(cause.action),
-          NumberCell(cause.probability),
-          ListCell(Ids(verdict.causes)),
-          ListCell(Ids(verdict.below_floor)),
-          verdict.unexplained,
-          NumberCell(100 * verdict.lack_of_fit.value),
-          NumberCell(100 * cause.power_effect.value),
-          NumberCell(cause.recoverable_power_W.value),
-          NumberCell(cause.recoverable_power_W.low_95),
-          NumberCell(cause.recoverable_power_W.high_95),
-          ListCell(findings),
-          TextCell(verdict.sentence),
-          ListCell(diagnosis.warnings, "; ")};
+ColumnList<DiagnoseRow> DiagnoseColumns() {
+  using Of = const DiagnoseRow&;
+  return {
+      {"cause", "",
+       "what the model gets wrong, a fault of the device before one of the measurement: its id; "
+       "else the first of device_findings, which also goes before single wrong readings; empty: "
+       "nothing",
+       [](Of of) { return of.cause.id; }},
+      {"cause_title", "", "the same in a few words", [](Of of) { return of.cause.title; }},
+      {"cause_about", "",
+       "what it belongs to: device; or a measurement to be repeated: sweep, instrument, "
+       "conditions; or unknown",
+       [](Of of) { return of.cause.group; }},
+      {"cause_sentence", "", "the same for a technician, with its size",
+       [](Of of) { return of.cause.sentence; }},
+      {"equivalents", "", "ids that these readings cannot tell from it",
+       [](Of of) { return ListCell(of.cause.equivalents); }},
+      {"separate_by", "", "measurements that would, with '; ' between them",
+       [](Of of) { return ListCell(of.cause.separate_by, "; "); }},
+      {"action", "", "the next thing to do about it", [](Of of) { return of.cause.action; }},
+      {"probability", "", "that this cause, and no other, is there",
+       [](Of of) { return of.cause.probability; }},
+      {"causes", "", "ids of all causes, the most certain first",
+       [](Of of) { return IdsCell(of.diagnosis.verdict.causes); }},
+      {"below_floor", "", "ids of what is there too but too small to act on",
+       [](Of of) { return IdsCell(of.diagnosis.verdict.below_floor); }},
+      {"unexplained", "",
+       "something is there that no known cause fits; where no cause is named, the model misses "
+       "more than it misses of healthy modules",
+       [](Of of) { return of.diagnosis.verdict.unexplained; }},
+      {"lack_of_fit_percent", "%",
+       "of the readings from the model beyond noise, root mean square in percent of Isc",
+       [](Of of) { return 100 * of.diagnosis.verdict.lack_of_fit.value; }},
+      {"power_effect_percent", "%",
+       "of the cause on Pmax: what the model gets wrong without it, in percent; of a device "
+       "finding what it costs",
+       [](Of of) { return 100 * of.cause.power_effect.value; }},
+      {"recoverable_power_W", "W",
+       "what the device would give more without the cause; empty where only a lower limit is "
+       "known",
+       [](Of of) { return of.cause.recoverable_power_W.value; }},
+      {"recoverable_power_W_low_95", "W", "its 95 % interval, or that lower limit",
+       [](Of of) { return of.cause.recoverable_power_W.low_95; }},
+      {"recoverable_power_W_high_95", "W", "its 95 % interval",
+       [](Of of) { return of.cause.recoverable_power_W.high_95; }},
+      {"device_findings", "",
+       "of leak, ideality, series_resistance what lies above healthy devices, the largest loss "
+       "first",
+       [](Of of) { return IdsCell(of.diagnosis.device_findings); }},
+      {"verdict", "", "the diagnosis in one sentence",
+       [](Of of) { return of.diagnosis.verdict.sentence; }},
+      {"warnings", "", "in plain words, with '; ' between them",
+       [](Of of) { return ListCell(of.diagnosis.warnings, "; "); }},
+  };
 }
 
 }  // namespace
@@ -92,19 +85,21 @@ BatchTaskType DiagnoseTask(const DiagnoseOptions& asked) {
   DiagnoseOptions options = asked;
   options.threads = 1;
   options.held_out = false;
+  const ColumnList<DiagnoseRow> columns = DiagnoseColumns();
   BatchTaskType task;
   task.name = "diagnose";
-  task.columns = DiagnoseColumns();
+  task.columns = HeadsOf(columns);
   task.options = NonDefaults(options, kDiagnoseOptionTable);
-  task.run = [options](const BatchCurve& curve, std::uint64_t seed, const Observer& observer) {
+  task.run = [options, columns](const BatchCurve& curve, std::uint64_t seed,
+                                const Observer& observer) {
     DiagnoseOptions own = options;
     own.seed = seed;
     Expected<Diagnosis> diagnosis = Diagnose(*curve.curve, own, observer);
     if (!diagnosis) return TaskResult{RowStatus::kBroken, diagnosis.error().message, {}, false};
     const FitReport& extended = diagnosis->extended;
-    TaskResult result{extended.usable ? RowStatus::kFine : RowStatus::kNotUsable,
-                      extended.not_usable_because, DiagnoseCells(*diagnosis),
-                      diagnosis->interrupted};
+    TaskResult result{
+        extended.usable ? RowStatus::kFine : RowStatus::kNotUsable, extended.not_usable_because,
+        CellsOf(columns, DiagnoseRow{*diagnosis, MainCause(*diagnosis)}), diagnosis->interrupted};
     result.failed = !extended.usable || diagnosis->verdict.found ||
                     diagnosis->verdict.unexplained || !diagnosis->device_findings.empty();
     diagnosis->seconds = kUnknown;  // a page must not depend on the time used

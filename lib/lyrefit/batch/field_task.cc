@@ -1,13 +1,11 @@
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "lyrefit/batch/batch_task.h"
+#include "lyrefit/base/append.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/translate/translate.h"
@@ -16,118 +14,112 @@
 namespace lyrefit {
 namespace {
 
-// Names and units in the order of KeyPointQuantities.
-constexpr const char* kQuantities[] = {"Isc", "Voc", "Imp", "Vmp", "Pmax", "FF"};
-constexpr const char* kUnits[] = {"A", "V", "A", "V", "W", ""};
-constexpr std::size_t kQuantityCount = 6;
+struct FieldRow {
+  explicit FieldRow(const TranslationReport& of)
+      : report(of),
+        test(of.field_test.value_or(FieldTest())),
+        best(of.Recommended()),
+        cause(of.diagnosis ? MainCause(*of.diagnosis) : Cause()) {}
 
-std::vector<ResultColumn> FieldColumns() {
-  constexpr CellType kText = CellType::kText;
-  constexpr CellType kNumber = CellType::kNumber;
-  std::vector<ResultColumn> columns = {
-      {"zone", "", kText,
-       "power at standard conditions against the least that the rating allows: pass, pass within "
-       "uncertainty, undecided (a probability from 20 to 80 %), fail within uncertainty, fail; "
-       "doubtful where that cannot be judged"},
-      {"performance_factor", "", kNumber, "measured over predicted maximum power"},
-      {"performance_factor_low", "", kNumber, "its interval, k = 2"},
-      {"performance_factor_high", "", kNumber, "its interval, k = 2"},
-      {"wrong_decision_probability", "", kNumber,
-       "that the true power is on the other side of the limit than what the zone says"},
-      {"lowest_power_W", "W", kNumber, "the least that rating and tolerance allow"},
-      {"cell_temperature_C", "C", kNumber,
-       "of the cells, as used: what was read, and how much warmer than the sensor they are"},
-      {"procedure", "", kText, "that carried the curve to standard conditions"},
-  };
-  for (std::size_t q = 0; q < kQuantityCount; ++q) {
-    const std::string name = kQuantities[q];
-    const std::string unit = *kUnits[q] == '\0' ? "" : std::string("_") + kUnits[q];
-    columns.push_back(
-        {fmt::format("{}_stc{}", name, unit), kUnits[q], kNumber, name + " at 1000 W/m2 and 25 C"});
-    columns.push_back({fmt::format("{}_stc_U{}", name, unit), kUnits[q], kNumber,
-                       "its expanded uncertainty, k = 2"});
+  // `q`: in the order of KeyPointQuantities.
+  UncertainOutput Output(std::size_t q) const {
+    const bool has = best != nullptr && q < best->budget.outputs.size();
+    return has ? best->budget.outputs[q] : UncertainOutput();
   }
-  for (ResultColumn column : std::vector<ResultColumn>{
-           {"conditions_met", "", CellType::kWhole, "conditions of the checklist that are met"},
-           {"conditions_not_met", "", kText, "those that are not, with '; ' between them"},
-           {"conditions_not_known", "", kText, "those of which nothing is known"},
-           {"cause", "", kText,
-            "what is wrong with the curve, a fault of the device before one of the measurement: "
-            "its id; "
-            "leak, ideality, low_ideality, series_resistance or fill_factor where that lies out of "
-            "the range of healthy devices"},
-           {"cause_about", "", kText,
-            "what that cause belongs to: device; or a measurement to be repeated: sweep, "
-            "instrument, "
-            "conditions; or unknown"},
-           {"cause_title", "", kText, "the same in a few words"},
-           {"cause_sentence", "", kText, "the same for a technician, with its size"},
-           {"equivalents", "", kText, "ids that these readings cannot tell from it"},
-           {"separate_by", "", kText, "measurements that would, with '; ' between them"},
-           {"action", "", kText, "the next thing to do about it"},
-           {"probability", "", kNumber, "that this cause, and no other, is there"},
-           {"recoverable_power_W", "W", kNumber,
-            "what the string would give more without the cause, in the light of the sweep; empty "
-            "where only a lower limit is known"},
-           {"recoverable_power_W_low_95", "W", kNumber, "its 95 % interval, or that lower limit"},
-           {"recoverable_power_W_high_95", "W", kNumber, "its 95 % interval"},
-           {"below_rating_W", "W", kNumber, "rated power less the power at standard conditions"},
-           {"causes", "", kText, "ids of all causes, the most certain first"},
-           {"verdict", "", kText, "the diagnosis in one sentence"},
-           {"field_test", "", kText, "the field test in one sentence"},
-           {"warnings", "", kText, "in plain words, with '; ' between them"}}) {
-    columns.push_back(std::move(column));
-  }
-  return columns;
-}
 
-std::vector<std::string> Titles(const Checklist& checklist, Condition state) {
+  const TranslationReport& report;
+  FieldTest test;
+  const TranslatedResult* best;
+  Cause cause;
+};
+
+ResultCell TitlesCell(const Checklist& checklist, Condition state) {
   std::vector<std::string> titles;
   for (const CheckedCondition& one : checklist.conditions) {
     if (one.state == state) titles.push_back(one.title);
   }
-  return titles;
+  return ListCell(titles, "; ");
 }
 
-std::vector<ResultCell> FieldCells(const TranslationReport& report) {
-  const FieldTest test = report.field_test.value_or(FieldTest());
-  const bool judged = report.field_test.has_value();
-  const TranslatedResult* const best = report.Recommended();
-  std::vector<ResultCell> cells = {judged ? TextCell(ToText(test.zone)) : ResultCell(),
-                                   NumberCell(test.performance_factor),
-                                   NumberCell(test.performance_low),
-                                   NumberCell(test.performance_high),
-                                   NumberCell(test.probability_wrong),
-                                   NumberCell(test.lowest_W),
-                                   NumberCell(report.inputs.values.temperature_C),
-                                   best == nullptr ? ResultCell() : TextCell(best->title)};
-  for (std::size_t q = 0; q < kQuantityCount; ++q) {
-    const bool has = best != nullptr && q < best->budget.outputs.size();
-    const UncertainOutput output = has ? best->budget.outputs[q] : UncertainOutput();
-    cells.push_back(NumberCell(output.value));
-    cells.push_back(NumberCell(output.expanded_uncertainty));
+ColumnList<FieldRow> FieldColumns() {
+  using Of = const FieldRow&;
+  ColumnList<FieldRow> columns = {
+      {"zone", "",
+       "power at standard conditions against the least that the rating allows: pass, pass within "
+       "uncertainty, undecided (a probability from 20 to 80 %), fail within uncertainty, fail; "
+       "doubtful where that cannot be judged",
+       [](Of of) { return of.report.field_test ? ToText(of.test.zone) : ""; }},
+      {"performance_factor", "", "measured over predicted maximum power",
+       [](Of of) { return of.test.performance_factor; }},
+      {"performance_factor_low", "", "its interval, k = 2",
+       [](Of of) { return of.test.performance_low; }},
+      {"performance_factor_high", "", "its interval, k = 2",
+       [](Of of) { return of.test.performance_high; }},
+      {"wrong_decision_probability", "",
+       "that the true power is on the other side of the limit than what the zone says",
+       [](Of of) { return of.test.probability_wrong; }},
+      {"lowest_power_W", "W", "the least that rating and tolerance allow",
+       [](Of of) { return of.test.lowest_W; }},
+      {"cell_temperature_C", "C",
+       "of the cells, as used: what was read, and how much warmer than the sensor they are",
+       [](Of of) { return of.report.inputs.values.temperature_C; }},
+      {"procedure", "", "that carried the curve to standard conditions",
+       [](Of of) { return of.best == nullptr ? "" : of.best->title; }},
+  };
+  std::size_t q = 0;
+  for (const auto& [name, unit] : std::vector<std::pair<std::string, std::string>>{
+           {"Isc", "A"}, {"Voc", "V"}, {"Imp", "A"}, {"Vmp", "V"}, {"Pmax", "W"}, {"FF", ""}}) {
+    const std::string end = unit.empty() ? "" : "_" + unit;
+    columns.emplace_back(name + "_stc" + end, unit, name + " at 1000 W/m2 and 25 C",
+                         [q](Of of) { return of.Output(q).value; });
+    columns.emplace_back(name + "_stc_U" + end, unit, "its expanded uncertainty, k = 2",
+                         [q](Of of) { return of.Output(q).expanded_uncertainty; });
+    ++q;
   }
-  cells.emplace_back(std::int64_t{report.checklist.met});
-  cells.push_back(ListCell(Titles(report.checklist, Condition::kNotMet), "; "));
-  cells.push_back(ListCell(Titles(report.checklist, Condition::kNotKnown), "; "));
-  const Cause cause = report.diagnosis ? MainCause(*report.diagnosis) : Cause();
-  cells.push_back(TextCell(cause.id));
-  cells.push_back(TextCell(cause.group));
-  cells.push_back(TextCell(cause.title));
-  cells.push_back(TextCell(cause.sentence));
-  cells.push_back(ListCell(cause.equivalents));
-  cells.push_back(ListCell(cause.separate_by, "; "));
-  cells.push_back(TextCell(cause.action));
-  cells.push_back(NumberCell(cause.probability));
-  cells.push_back(NumberCell(cause.recoverable_power_W.value));
-  cells.push_back(NumberCell(cause.recoverable_power_W.low_95));
-  cells.push_back(NumberCell(cause.recoverable_power_W.high_95));
-  cells.push_back(NumberCell(test.rated_W - test.standard_W));
-  cells.push_back(ListCell(report.causes));
-  cells.push_back(TextCell(report.verdict));
-  cells.push_back(TextCell(test.sentence));
-  cells.push_back(ListCell(report.warnings, "; "));
-  return cells;
+  Append(
+      {{"conditions_met", "", "conditions of the checklist that are met",
+        [](Of of) { return of.report.checklist.met; }},
+       {"conditions_not_met", "", "those that are not, with '; ' between them",
+        [](Of of) { return TitlesCell(of.report.checklist, Condition::kNotMet); }},
+       {"conditions_not_known", "", "those of which nothing is known",
+        [](Of of) { return TitlesCell(of.report.checklist, Condition::kNotKnown); }},
+       {"cause", "",
+        "what is wrong with the curve, a fault of the device before one of the measurement: its "
+        "id; leak, ideality, low_ideality, series_resistance or fill_factor where that lies out of "
+        "the range of healthy devices",
+        [](Of of) { return of.cause.id; }},
+       {"cause_about", "",
+        "what that cause belongs to: device; or a measurement to be repeated: sweep, instrument, "
+        "conditions; or unknown",
+        [](Of of) { return of.cause.group; }},
+       {"cause_title", "", "the same in a few words", [](Of of) { return of.cause.title; }},
+       {"cause_sentence", "", "the same for a technician, with its size",
+        [](Of of) { return of.cause.sentence; }},
+       {"equivalents", "", "ids that these readings cannot tell from it",
+        [](Of of) { return ListCell(of.cause.equivalents); }},
+       {"separate_by", "", "measurements that would, with '; ' between them",
+        [](Of of) { return ListCell(of.cause.separate_by, "; "); }},
+       {"action", "", "the next thing to do about it", [](Of of) { return of.cause.action; }},
+       {"probability", "", "that this cause, and no other, is there",
+        [](Of of) { return of.cause.probability; }},
+       {"recoverable_power_W", "W",
+        "what the string would give more without the cause, in the light of the sweep; empty where "
+        "only a lower limit is known",
+        [](Of of) { return of.cause.recoverable_power_W.value; }},
+       {"recoverable_power_W_low_95", "W", "its 95 % interval, or that lower limit",
+        [](Of of) { return of.cause.recoverable_power_W.low_95; }},
+       {"recoverable_power_W_high_95", "W", "its 95 % interval",
+        [](Of of) { return of.cause.recoverable_power_W.high_95; }},
+       {"below_rating_W", "W", "rated power less the power at standard conditions",
+        [](Of of) { return of.test.rated_W - of.test.standard_W; }},
+       {"causes", "", "ids of all causes, the most certain first",
+        [](Of of) { return ListCell(of.report.causes); }},
+       {"verdict", "", "the diagnosis in one sentence", [](Of of) { return of.report.verdict; }},
+       {"field_test", "", "the field test in one sentence", [](Of of) { return of.test.sentence; }},
+       {"warnings", "", "in plain words, with '; ' between them",
+        [](Of of) { return ListCell(of.report.warnings, "; "); }}},
+      &columns);
+  return columns;
 }
 
 // Uses the rating beside the curve, if the options state none.
@@ -152,11 +144,13 @@ BatchTaskType FieldTestTask(const TranslateOptions& asked) {
   options.diagnosis.threads = options.uncertainty.threads = 1;
   options.diagnosis.held_out = false;
   options.all_budgets = false;
+  const ColumnList<FieldRow> columns = FieldColumns();
   BatchTaskType task;
   task.name = "field-test";
-  task.columns = FieldColumns();
+  task.columns = HeadsOf(columns);
   task.options = NonDefaults(options, kTranslateOptionTable);
-  task.run = [options](const BatchCurve& curve, std::uint64_t seed, const Observer& observer) {
+  task.run = [options, columns](const BatchCurve& curve, std::uint64_t seed,
+                                const Observer& observer) {
     TranslateOptions own = options;
     own.diagnosis.seed = own.uncertainty.seed = seed;
     TakeRating(curve, &own.field_test);
@@ -164,7 +158,7 @@ BatchTaskType FieldTestTask(const TranslateOptions& asked) {
     if (!report) return TaskResult{RowStatus::kBroken, report.error().message, {}, false};
     const bool usable = report->Recommended() != nullptr;
     TaskResult result{usable ? RowStatus::kFine : RowStatus::kNotUsable,
-                      usable ? std::string() : report->reason, FieldCells(*report),
+                      usable ? std::string() : report->reason, CellsOf(columns, FieldRow(*report)),
                       report->interrupted};
     if (usable && report->field_test && report->field_test->zone == Zone::kDoubtful) {
       result.status = RowStatus::kDoubtful;

@@ -5,7 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "lyrefit/batch/batch_task.h"
+#include "lyrefit/base/append.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/report/documents.h"
@@ -20,32 +21,6 @@ std::vector<ParameterInfo> FitParameters(const FitOptions& options, bool auto_mo
   std::vector<ParameterInfo> infos = MakeDevice(largest, {}).parameters;
   AddInfos(options.with, &infos);
   return infos;
-}
-
-std::vector<ResultColumn> FitColumns(const std::vector<ParameterInfo>& parameters) {
-  std::vector<ResultColumn> columns = {
-      {"model", "", CellType::kText, "number of diodes: sd, dd or td"}};
-  for (const ParameterInfo& info : parameters) {
-    const std::string name = info.symbol + (info.unit.empty() ? "" : "_" + info.unit);
-    columns.push_back({name, info.unit, CellType::kNumber, info.doc});
-    columns.push_back({name + "_se", info.unit, CellType::kNumber,
-                       "standard error of " + info.symbol +
-                           " under what `errors` says; none where it is fixed or at a bound"});
-  }
-  columns.push_back(
-      {"errors", "", CellType::kText,
-       "what the standard errors take the errors of the readings for. independent: of "
-       "one size and knowing nothing of each other. unequal: knowing nothing of each other, noise "
-       "of current and voltage. correlated: these and wandering light, as the residuals clearly "
-       "say. stated: of the sizes that were stated"});
-  columns.push_back({"rmse_searched_solved_current_A", "A", CellType::kNumber,
-                     "root mean square error of the search's best, by the solved current"});
-  columns.push_back({"rmse_refined_solved_current_A", "A", CellType::kNumber,
-                     "root mean square error of the answer, by the solved current"});
-  columns.push_back({"rmse_refined_measured_current_A", "A", CellType::kNumber,
-                     "the same by the measured current put into the law"});
-  columns.push_back({"warnings", "", CellType::kText, "in plain words, with '; ' between them"});
-  return columns;
 }
 
 // Standard error under the recommended error model.
@@ -63,26 +38,52 @@ std::string ErrorsOf(const FitReport& report) {
   return report.errors->Taken() == ErrorsTaken::kPath ? "correlated" : "unequal";
 }
 
-std::vector<ResultCell> FitCells(const FitReport& report,
-                                 const std::vector<ParameterInfo>& parameters) {
-  std::vector<ResultCell> cells = {std::string(ToText(report.model))};
-  for (const ParameterInfo& info : parameters) {
-    const auto found = std::find_if(
-        report.estimates.begin(), report.estimates.end(),
-        [&info](const Estimate& estimate) { return estimate.info.symbol == info.symbol; });
-    const bool has = found != report.estimates.end();
-    cells.push_back(NumberCell(!has              ? kUnknown
-                               : report.polished ? found->refined
-                                                 : found->searched));
-    cells.push_back(NumberCell(has ? StandardError(report, *found) : kUnknown));
+// The estimate of a parameter; empty: the model of the answer lacks it.
+Estimate EstimateOf(const FitReport& report, const std::string& symbol) {
+  for (const Estimate& one : report.estimates) {
+    if (one.info.symbol != symbol) continue;
+    Estimate found = one;
+    found.standard_error = StandardError(report, one);
+    return found;
   }
-  cells.push_back(TextCell(ErrorsOf(report)));
-  const RmsePair refined = report.polished ? report.rmse.refined : RmsePair();
-  cells.push_back(NumberCell(report.rmse.searched.solved_current_A));
-  cells.push_back(NumberCell(refined.solved_current_A));
-  cells.push_back(NumberCell(refined.measured_current_A));
-  cells.push_back(ListCell(report.warnings, "; "));
-  return cells;
+  return {};
+}
+
+ColumnList<FitReport> FitColumns(const std::vector<ParameterInfo>& parameters) {
+  using Of = const FitReport&;
+  ColumnList<FitReport> columns = {
+      {"model", "", "number of diodes: sd, dd or td", [](Of of) { return ToText(of.model); }}};
+  for (const ParameterInfo& info : parameters) {
+    const std::string name = info.symbol + (info.unit.empty() ? "" : "_" + info.unit);
+    columns.emplace_back(name, info.unit, info.doc, [symbol = info.symbol](Of of) {
+      const Estimate estimate = EstimateOf(of, symbol);
+      return of.polished ? estimate.refined : estimate.searched;
+    });
+    columns.emplace_back(
+        name + "_se", info.unit,
+        "standard error of " + info.symbol +
+            " under what `errors` says; none where it is fixed or at a bound",
+        [symbol = info.symbol](Of of) { return EstimateOf(of, symbol).standard_error; });
+  }
+  Append(
+      {{"errors", "",
+        "what the standard errors take the errors of the readings for. independent: of one size "
+        "and knowing nothing of each other. unequal: knowing nothing of each other, noise of "
+        "current and voltage. correlated: these and wandering light, as the residuals clearly say. "
+        "stated: of the sizes that were stated",
+        ErrorsOf},
+       {"rmse_searched_solved_current_A", "A",
+        "root mean square error of the search's best, by the solved current",
+        [](Of of) { return of.rmse.searched.solved_current_A; }},
+       {"rmse_refined_solved_current_A", "A",
+        "root mean square error of the answer, by the solved current",
+        [](Of of) { return of.polished ? of.rmse.refined.solved_current_A : kUnknown; }},
+       {"rmse_refined_measured_current_A", "A", "the same by the measured current put into the law",
+        [](Of of) { return of.polished ? of.rmse.refined.measured_current_A : kUnknown; }},
+       {"warnings", "", "in plain words, with '; ' between them",
+        [](Of of) { return ListCell(of.warnings, "; "); }}},
+      &columns);
+  return columns;
 }
 
 std::vector<OptionEcho> FitEcho(const FitOptions& options, bool auto_model) {
@@ -103,13 +104,13 @@ FitOptions BatchFitOptions() {
 BatchTaskType FitTask(const FitOptions& asked, bool auto_model) {
   FitOptions options = asked;
   options.threads = 1;
-  const std::vector<ParameterInfo> parameters = FitParameters(options, auto_model);
+  const ColumnList<FitReport> columns = FitColumns(FitParameters(options, auto_model));
   BatchTaskType task;
   task.name = "fit";
-  task.columns = FitColumns(parameters);
+  task.columns = HeadsOf(columns);
   task.options = FitEcho(options, auto_model);
-  task.run = [options, auto_model, parameters](const BatchCurve& curve, std::uint64_t seed,
-                                               const Observer& observer) {
+  task.run = [options, auto_model, columns](const BatchCurve& curve, std::uint64_t seed,
+                                            const Observer& observer) {
     FitOptions own = options;
     own.search.seed = seed;
     Expected<FitReport> report = FitWithFloor(*curve.curve, own, auto_model, observer);
@@ -119,8 +120,7 @@ BatchTaskType FitTask(const FitOptions& asked, bool auto_model) {
     report->interval_seconds = report->plain_seconds = kUnknown;
     report->refine.best_candidate_seconds = kUnknown;
     TaskResult result{report->usable ? RowStatus::kFine : RowStatus::kNotUsable,
-                      report->not_usable_because, FitCells(*report, parameters),
-                      report->interrupted};
+                      report->not_usable_because, CellsOf(columns, *report), report->interrupted};
     result.failed = !report->usable;
     result.page =
         [report = std::make_shared<const FitReport>(std::move(*report))](const PageOptions& page) {

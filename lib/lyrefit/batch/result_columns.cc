@@ -1,6 +1,5 @@
 #include "lyrefit/batch/result_columns.h"
 
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/batch/sparkline.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/stream/batch_input.h"
@@ -19,7 +19,6 @@ namespace {
 constexpr char kDate[] = "date";
 constexpr char kUnnamed[] = "nothing names the curve: its id is its place";
 constexpr char kRatedPower[] = "rated_power_W";
-constexpr std::size_t kReadingCells = 11;
 
 std::optional<std::string> Beside(const BatchCurve& curve, const char* key) {
   const auto found = curve.beside.find(key);
@@ -27,96 +26,107 @@ std::optional<std::string> Beside(const BatchCurve& curve, const char* key) {
   return found->second;
 }
 
-ResultCell RatedPower(const BatchCurve& curve) {
-  const std::optional<std::string> text = Beside(curve, kRatedPower);
-  if (!text) return {};
-  double value = kUnknown;
-  const char* const end = text->data() + text->size();
-  const auto read = std::from_chars(text->data(), end, value);
-  return read.ec == std::errc() && read.ptr == end ? NumberCell(value) : ResultCell();
-}
-
-ResultCell Date(const BatchCurve& curve) {
-  if (const auto text = Beside(curve, kDate)) return *text;
-  return curve.curve ? TextCell(curve.curve->notes.date) : ResultCell();
+std::string DateOf(const BatchCurve& curve) {
+  const auto text = Beside(curve, kDate);
+  return text ? *text : curve.curve ? curve.curve->notes.date : "";
 }
 
 // All values without a column of their own, as one JSON object.
-ResultCell Rest(const BatchCurve& curve) {
+std::string RestOf(const BatchCurve& curve) {
   nlohmann::json rest = nlohmann::json::object();
   for (const auto& [key, value] : curve.beside) {
     if (key != kDate && key != kRatedPower) rest[key] = value;
   }
-  if (rest.empty()) return {};
-  return rest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return rest.empty() ? "" : rest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::vector<ResultCell> ReadingCells(const IvCurve& curve, const TaskResult& result) {
-  const Conditions& at = curve.conditions;
-  // Removes the rounding error of the subtraction from kelvin: 33.00000000000006.
-  const double celsius = std::round((at.cell_temperature_K - kZeroCelsius_K) * 1e9) / 1e9;
-  const KeyPoints key =
-      result.key_points ? *result.key_points : FindKeyPoints(curve.voltage_V, curve.current_A);
-  return {NumberCell(curve.irradiance_known ? at.irradiance_W_m2 : kUnknown),
-          NumberCell(curve.temperature_known ? celsius : kUnknown),
-          std::int64_t{at.cells_in_series},
-          static_cast<std::int64_t>(curve.size()),
-          NumberCell(key.short_circuit_current_A),
-          NumberCell(key.open_circuit_voltage_V),
-          NumberCell(key.max_power_current_A),
-          NumberCell(key.max_power_voltage_V),
-          NumberCell(key.max_power_W),
-          NumberCell(key.fill_factor),
-          TextCell(Sparkline(curve.voltage_V, curve.current_A, key.open_circuit_voltage_V))};
+// Removes the rounding error of the subtraction from kelvin: 33.00000000000006.
+double Celsius(double temperature_K) {
+  return std::round((temperature_K - kZeroCelsius_K) * 1e9) / 1e9;
+}
+
+struct CommonRow {
+  CommonRow(const BatchCurve& of, const BatchItem& at, const TaskResult& made)
+      : curve(of), item(at), result(made) {
+    if (!of.curve || !of.file.empty()) return;
+    readings = &*of.curve;
+    key = made.key_points.value_or(FindKeyPoints(readings->voltage_V, readings->current_A));
+  }
+
+  const BatchCurve& curve;
+  const BatchItem& item;
+  const TaskResult& result;
+  const IvCurve* readings = nullptr;  // null: the row is not of one readable curve
+  KeyPoints key;                      // of the readings
+};
+
+const ColumnList<CommonRow>& Columns() {
+  using Of = const CommonRow&;
+  static const ColumnList<CommonRow> columns = {
+      {"id", "", "the curve's name; '/' separates the levels of a plant",
+       [](Of of) { return of.curve.id; }},
+      {"status", "",
+       "fine; doubtful: there is an answer, but to readings that no such device gives; not usable: "
+       "there is an answer, but nobody should work with it; broken: the curve could not be read or "
+       "worked with",
+       [](Of of) { return ToText(of.result.status); }},
+      {"reason", "", "why it is not fine, in one sentence", [](Of of) { return of.result.reason; }},
+      {"remark", "", "what has to be said of the row itself",
+       [](Of of) { return of.item.unnamed ? kUnnamed : ""; }},
+      {"where", "", "where the curve stands in the input",
+       [](Of of) { return PercentCoded(of.item.where); }},
+      {kDate, "", "of the measurement, as written", [](Of of) { return DateOf(of.curve); }},
+      {kRatedPower, "W", "rated power, as it stands beside the curve",
+       [](Of of) { return RatedPowerBeside(of.curve); }},
+      {"beside", "", "what else stands beside the curve, as a JSON object",
+       [](Of of) { return RestOf(of.curve); }},
+      {"irradiance_Wm2", "W/m2", "irradiance; none where nobody stated it",
+       [](Of of) {
+         const bool known = of.readings != nullptr && of.readings->irradiance_known;
+         return known ? of.readings->conditions.irradiance_W_m2 : kUnknown;
+       }},
+      {"temperature_C", "C", "cell temperature; none where nobody stated it",
+       [](Of of) {
+         const bool known = of.readings != nullptr && of.readings->temperature_known;
+         return known ? Celsius(of.readings->conditions.cell_temperature_K) : kUnknown;
+       }},
+      {"cells_in_series", "", "cells in series that the answer is for",
+       [](Of of) {
+         return of.readings == nullptr ? std::optional<int>()
+                                       : of.readings->conditions.cells_in_series;
+       }},
+      {"points", "", "readings of the curve",
+       [](Of of) {
+         return of.readings == nullptr ? std::optional<std::size_t>() : of.readings->size();
+       }},
+      {"Isc_A", "A", "measured short-circuit current",
+       [](Of of) { return of.key.short_circuit_current_A; }},
+      {"Voc_V", "V", "measured open-circuit voltage",
+       [](Of of) { return of.key.open_circuit_voltage_V; }},
+      {"Imp_A", "A", "measured current at maximum power",
+       [](Of of) { return of.key.max_power_current_A; }},
+      {"Vmp_V", "V", "measured voltage at maximum power",
+       [](Of of) { return of.key.max_power_voltage_V; }},
+      {"Pmax_W", "W", "measured maximum power", [](Of of) { return of.key.max_power_W; }},
+      {"FF", "", "measured fill factor", [](Of of) { return of.key.fill_factor; }},
+      {"sparkline", "",
+       "24 currents at even voltages from 0 to Voc, a byte each in 1/255 of the largest, base64",
+       [](Of of) {
+         if (of.readings == nullptr) return std::string();
+         return Sparkline(of.readings->voltage_V, of.readings->current_A,
+                          of.key.open_circuit_voltage_V);
+       }},
+  };
+  return columns;
 }
 
 }  // namespace
 
-std::vector<ResultColumn> CommonColumns() {
-  constexpr CellType kText = CellType::kText;
-  constexpr CellType kNumber = CellType::kNumber;
-  constexpr CellType kWhole = CellType::kWhole;
-  return {
-      {"id", "", kText, "the curve's name; '/' separates the levels of a plant"},
-      {"status", "", kText,
-       "fine; doubtful: there is an answer, but to readings that no such device gives; not usable: "
-       "there is an answer, but nobody should work with it; broken: the curve could not be read or "
-       "worked with"},
-      {"reason", "", kText, "why it is not fine, in one sentence"},
-      {"remark", "", kText, "what has to be said of the row itself"},
-      {"where", "", kText, "where the curve stands in the input"},
-      {kDate, "", kText, "of the measurement, as written"},
-      {kRatedPower, "W", kNumber, "rated power, as it stands beside the curve"},
-      {"beside", "", kText, "what else stands beside the curve, as a JSON object"},
-      {"irradiance_Wm2", "W/m2", kNumber, "irradiance; none where nobody stated it"},
-      {"temperature_C", "C", kNumber, "cell temperature; none where nobody stated it"},
-      {"cells_in_series", "", kWhole, "cells in series that the answer is for"},
-      {"points", "", kWhole, "readings of the curve"},
-      {"Isc_A", "A", kNumber, "measured short-circuit current"},
-      {"Voc_V", "V", kNumber, "measured open-circuit voltage"},
-      {"Imp_A", "A", kNumber, "measured current at maximum power"},
-      {"Vmp_V", "V", kNumber, "measured voltage at maximum power"},
-      {"Pmax_W", "W", kNumber, "measured maximum power"},
-      {"FF", "", kNumber, "measured fill factor"},
-      {"sparkline", "", kText,
-       "24 currents at even voltages from 0 to Voc, a byte each in 1/255 of the largest, base64"},
-  };
-}
+std::vector<ResultColumn> CommonColumns() { return HeadsOf(Columns()); }
 
 std::vector<ResultCell> CommonCells(const BatchCurve& curve, const BatchItem& item,
                                     const TaskResult& result) {
-  std::vector<ResultCell> cells = {TextCell(curve.id),
-                                   std::string(ToText(result.status)),
-                                   TextCell(result.reason),
-                                   item.unnamed ? TextCell(kUnnamed) : ResultCell(),
-                                   TextCell(PercentCoded(item.where)),
-                                   Date(curve),
-                                   RatedPower(curve),
-                                   Rest(curve)};
-  std::vector<ResultCell> readings(kReadingCells);
-  if (curve.curve && curve.file.empty()) readings = ReadingCells(*curve.curve, result);
-  for (ResultCell& cell : readings) cells.push_back(std::move(cell));
-  return cells;
+  return CellsOf(Columns(), CommonRow(curve, item, result));
 }
 
 }  // namespace lyrefit

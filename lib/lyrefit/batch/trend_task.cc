@@ -7,9 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/checkpoint.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -18,120 +19,6 @@
 
 namespace lyrefit {
 namespace {
-
-// A quantity of TrendReport::quantities, with its unit in names of columns.
-struct FollowedQuantity {
-  const char* name;
-  const char* unit;
-  const char* suffix;
-};
-
-constexpr FollowedQuantity kFollowed[] = {{"p_mp", "%", "percent"},
-                                          {"light", "%", "percent"},
-                                          {"resistance_series", "ohm", "ohm"},
-                                          {"recombination", "V", "V"},
-                                          {"second_diode", "%", "percent"},
-                                          {"conductance_shunt", "S", "S"},
-                                          {"mismatch", "%", "percent"}};
-
-constexpr const char* kLossNames[] = {"light", "resistance_series", "recombination",
-                                      "shunt", "mismatch",          "total"};
-
-void AddRangedColumns(const std::string& name, const std::string& unit, const std::string& doc,
-                      std::vector<ResultColumn>* columns) {
-  columns->push_back({name, unit, CellType::kNumber, doc});
-  columns->push_back({name + "_low_95", unit, CellType::kNumber, "its 95 % interval"});
-  columns->push_back({name + "_high_95", unit, CellType::kNumber, "its 95 % interval"});
-}
-
-void AddLossColumns(const std::string& prefix, const std::string& of,
-                    std::vector<ResultColumn>* columns) {
-  for (const char* part : kLossNames) {
-    const std::string name = fmt::format("{}_{}_percent", prefix, part);
-    const bool total = part == std::string("total");
-    const std::string doc =
-        total ? "all parts of that loss" : fmt::format("lost {}, by {}", of, part);
-    if (total) {
-      AddRangedColumns(name, "%", doc, columns);
-    } else {
-      columns->push_back({name, "%", CellType::kNumber, doc});
-    }
-  }
-}
-
-std::vector<ResultColumn> TrendColumns() {
-  constexpr CellType kText = CellType::kText;
-  constexpr CellType kNumber = CellType::kNumber;
-  constexpr CellType kWhole = CellType::kWhole;
-  std::vector<ResultColumn> columns = {
-      {"first", "", kText, "time of the first measurement"},
-      {"last", "", kText, "time of the last measurement"},
-      {"measurements", "", kWhole, "sweeps or operating points of the device"},
-      {"measurements_used", "", kWhole, "those whose parameters count"},
-      {"days", "", kWhole, "days with data"},
-      {"reference_power_W", "W", kNumber, "power at 1000 W/m2 and 25 C over the reference days"},
-  };
-  for (const FollowedQuantity& one : kFollowed) {
-    AddRangedColumns(fmt::format("{}_rate_{}", one.name, one.suffix), one.unit,
-                     fmt::format("change of {} a year, in {}", one.name, one.unit), &columns);
-  }
-  AddLossColumns("loss", "of the energy that the reference days let expect", &columns);
-  AddLossColumns("loss_now", "of the power over the last 30 days with data", &columns);
-  for (ResultColumn column : std::vector<ResultColumn>{
-           {"largest_loss", "", kText,
-            "the part that takes most over the last 30 days with data, of those whose 95 % "
-            "interval "
-            "is above zero"},
-           {"onsets", "", kWhole, "onsets and steps to the worse"},
-           {"cause", "", kText, "what the onset that costs most may be: its id"},
-           {"cause_title", "", kText, "the same in a few words"},
-           {"cause_about", "", kText, "what it belongs to: device"},
-           {"cause_sentence", "", kText, "the same for a technician"},
-           {"action", "", kText, "the next thing to do about it"},
-           {"onset_date", "", kText, "its day"},
-           {"onset_earliest", "", kText, "95 % range of that day"},
-           {"onset_latest", "", kText, "95 % range of that day"},
-           {"lost_percent", "%", kNumber,
-            "of the power, over the last 30 days with data, by what this cause affects"},
-           {"recoverable_power_W", "W", kNumber, "the same of the reference power"},
-           {"causes", "", kText, "ids of all onsets, by their days"},
-           {"verdict", "", kText, "the trend in a few sentences"},
-           {"not_decided", "", kText, "what the measurements cannot tell, and what would"},
-           {"warnings", "", kText, "in plain words, with '; ' between them"}}) {
-    columns.push_back(std::move(column));
-  }
-  return columns;
-}
-
-void AddRanged(const Ranged& one, std::vector<ResultCell>* cells) {
-  for (const double value : {one.value, one.low_95, one.high_95}) {
-    cells->push_back(NumberCell(value));
-  }
-}
-
-void AddRates(const TrendReport& report, std::vector<ResultCell>* cells) {
-  for (const FollowedQuantity& one : kFollowed) {
-    const auto found =
-        std::find_if(report.quantities.begin(), report.quantities.end(),
-                     [&](const TrendQuantity& quantity) { return quantity.name == one.name; });
-    AddRanged(found == report.quantities.end() ? Ranged() : found->rate_per_year, cells);
-  }
-}
-
-void AddLosses(const TrendReport& report, Ranged TrendLoss::*figure,
-               std::vector<ResultCell>* cells) {
-  for (const char* part : kLossNames) {
-    Ranged loss;
-    for (const TrendLoss& one : report.losses) {
-      if (one.name == part) loss = one.*figure;
-    }
-    if (part == std::string("total")) {
-      AddRanged(loss, cells);
-    } else {
-      cells->push_back(NumberCell(loss.value));
-    }
-  }
-}
 
 // The name of the part that takes most now, of those that are shown to take anything; or empty.
 std::string LargestLoss(const TrendReport& report) {
@@ -151,8 +38,8 @@ double LostBy(const std::string& cause, const std::vector<TrendOnset>& onsets) {
   std::set<std::string> counted;
   double lost = 0;
   for (const TrendOnset& onset : onsets) {
-    if (onset.cause.id == cause && counted.insert(onset.quantity).second)
-      lost += onset.lost_percent;
+    if (onset.cause.id != cause || !counted.insert(onset.quantity).second) continue;
+    lost += onset.lost_percent;
   }
   return lost;
 }
@@ -170,42 +57,124 @@ const TrendOnset* CostliestOnset(const std::vector<TrendOnset>& onsets) {
   return costliest;
 }
 
-ResultCell DateCell(double time_s) {
-  return std::isfinite(time_s) ? TextCell(DateText(time_s)) : ResultCell();
-}
+struct TrendFigures {
+  explicit TrendFigures(const TrendReport& of) : report(of) {
+    const TrendOnset* const found = CostliestOnset(of.onsets);
+    if (found == nullptr) return;
+    onset = *found;
+    lost_percent = LostBy(onset.cause.id, of.onsets);
+  }
 
-void AddOnset(const TrendReport& report, std::vector<ResultCell>* cells) {
-  const TrendOnset* const found = CostliestOnset(report.onsets);
-  const TrendOnset onset = found == nullptr ? TrendOnset() : *found;
-  const double lost = found == nullptr ? kUnknown : LostBy(onset.cause.id, report.onsets);
-  const double recoverable_W = std::max(lost, 0.0) / 100 * report.reference_power_W;
-  std::vector<std::string> ids;
-  for (const TrendOnset& one : report.onsets) ids.push_back(one.cause.id);
-  for (ResultCell cell : std::vector<ResultCell>{
-           static_cast<std::int64_t>(report.onsets.size()), TextCell(onset.cause.id),
-           TextCell(onset.cause.title), TextCell(onset.cause.group), TextCell(onset.cause.sentence),
-           TextCell(onset.cause.action), DateCell(onset.time_s), DateCell(onset.earliest_s),
-           DateCell(onset.latest_s), NumberCell(lost), NumberCell(recoverable_W), ListCell(ids),
-           TextCell(report.verdict), ListCell(report.not_decided),
-           ListCell(report.warnings, "; ")}) {
-    cells->push_back(std::move(cell));
+  const TrendReport& report;
+  TrendOnset onset = {};  // that costs most; empty: there is none
+  double lost_percent = kUnknown;
+};
+
+std::string DayText(double time_s) { return std::isfinite(time_s) ? DateText(time_s) : ""; }
+
+void AddRates(ColumnList<TrendFigures>* columns) {
+  struct Followed {  // a quantity of TrendReport::quantities, with its unit in names of columns
+    const char* name;
+    const char* unit;
+    const char* suffix;
+  };
+  for (const auto& [name, unit, suffix] : {Followed{"p_mp", "%", "percent"},
+                                           {"light", "%", "percent"},
+                                           {"resistance_series", "ohm", "ohm"},
+                                           {"recombination", "V", "V"},
+                                           {"second_diode", "%", "percent"},
+                                           {"conductance_shunt", "S", "S"},
+                                           {"mismatch", "%", "percent"}}) {
+    AddRanged(
+        fmt::format("{}_rate_{}", name, suffix), unit,
+        fmt::format("change of {} a year, in {}", name, unit),
+        [name = std::string(name)](const TrendFigures& of) {
+          for (const TrendQuantity& one : of.report.quantities) {
+            if (one.name == name) return one.rate_per_year;
+          }
+          return Ranged();
+        },
+        columns);
   }
 }
 
-std::vector<ResultCell> TrendCells(const TrendReport& report) {
-  const auto used = static_cast<std::size_t>(TrendRowState::kUsed);
-  std::vector<ResultCell> cells = {TextCell(DateTimeText(report.first_s)),
-                                   TextCell(DateTimeText(report.last_s)),
-                                   report.rows,
-                                   report.states[used],
-                                   static_cast<std::int64_t>(report.days),
-                                   NumberCell(report.reference_power_W)};
-  AddRates(report, &cells);
-  AddLosses(report, &TrendLoss::energy_percent, &cells);
-  AddLosses(report, &TrendLoss::now_percent, &cells);
-  cells.push_back(TextCell(LargestLoss(report)));
-  AddOnset(report, &cells);
-  return cells;
+void AddLosses(const std::string& prefix, const std::string& of, Ranged TrendLoss::*figure,
+               ColumnList<TrendFigures>* columns) {
+  const auto part_of = [figure](const std::string& part) {
+    return [figure, part](const TrendFigures& row) {
+      Ranged loss;
+      for (const TrendLoss& one : row.report.losses) {
+        if (one.name == part) loss = one.*figure;
+      }
+      return loss;
+    };
+  };
+  for (const char* part : {"light", "resistance_series", "recombination", "shunt", "mismatch"}) {
+    columns->emplace_back(
+        fmt::format("{}_{}_percent", prefix, part), "%", fmt::format("lost {}, by {}", of, part),
+        [ranged = part_of(part)](const TrendFigures& row) { return ranged(row).value; });
+  }
+  AddRanged(prefix + "_total_percent", "%", "all parts of that loss", part_of("total"), columns);
+}
+
+ColumnList<TrendFigures> TrendColumns() {
+  using Of = const TrendFigures&;
+  ColumnList<TrendFigures> columns = {
+      {"first", "", "time of the first measurement",
+       [](Of of) { return DateTimeText(of.report.first_s); }},
+      {"last", "", "time of the last measurement",
+       [](Of of) { return DateTimeText(of.report.last_s); }},
+      {"measurements", "", "sweeps or operating points of the device",
+       [](Of of) { return of.report.rows; }},
+      {"measurements_used", "", "those whose parameters count",
+       [](Of of) { return of.report.states[static_cast<std::size_t>(TrendRowState::kUsed)]; }},
+      {"days", "", "days with data", [](Of of) { return of.report.days; }},
+      {"reference_power_W", "W", "power at 1000 W/m2 and 25 C over the reference days",
+       [](Of of) { return of.report.reference_power_W; }},
+  };
+  AddRates(&columns);
+  AddLosses("loss", "of the energy that the reference days let expect", &TrendLoss::energy_percent,
+            &columns);
+  AddLosses("loss_now", "of the power over the last 30 days with data", &TrendLoss::now_percent,
+            &columns);
+  Append(
+      {{"largest_loss", "",
+        "the part that takes most over the last 30 days with data, of those whose 95 % interval "
+        "is above zero",
+        [](Of of) { return LargestLoss(of.report); }},
+       {"onsets", "", "onsets and steps to the worse",
+        [](Of of) { return of.report.onsets.size(); }},
+       {"cause", "", "what the onset that costs most may be: its id",
+        [](Of of) { return of.onset.cause.id; }},
+       {"cause_title", "", "the same in a few words", [](Of of) { return of.onset.cause.title; }},
+       {"cause_about", "", "what it belongs to: device",
+        [](Of of) { return of.onset.cause.group; }},
+       {"cause_sentence", "", "the same for a technician",
+        [](Of of) { return of.onset.cause.sentence; }},
+       {"action", "", "the next thing to do about it", [](Of of) { return of.onset.cause.action; }},
+       {"onset_date", "", "its day", [](Of of) { return DayText(of.onset.time_s); }},
+       {"onset_earliest", "", "95 % range of that day",
+        [](Of of) { return DayText(of.onset.earliest_s); }},
+       {"onset_latest", "", "95 % range of that day",
+        [](Of of) { return DayText(of.onset.latest_s); }},
+       {"lost_percent", "%",
+        "of the power, over the last 30 days with data, by what this cause affects",
+        &TrendFigures::lost_percent},
+       {"recoverable_power_W", "W", "the same of the reference power",
+        [](Of of) { return std::max(of.lost_percent, 0.0) / 100 * of.report.reference_power_W; }},
+       {"causes", "", "ids of all onsets, by their days",
+        [](Of of) {
+          std::vector<std::string> ids;
+          for (const TrendOnset& one : of.report.onsets) ids.push_back(one.cause.id);
+          return ListCell(ids);
+        }},
+       {"verdict", "", "the trend in a few sentences", [](Of of) { return of.report.verdict; }},
+       {"not_decided", "", "what the measurements cannot tell, and what would",
+        [](Of of) { return ListCell(of.report.not_decided); }},
+       {"warnings", "", "in plain words, with '; ' between them",
+        [](Of of) { return ListCell(of.report.warnings, "; "); }}},
+      &columns);
+  return columns;
 }
 
 Expected<TrendSeries> SeriesOfFile(const std::string& file, const TrendReadOptions& reading,
@@ -233,15 +202,16 @@ BatchTaskType TrendTask(const TrendReadOptions& reading, const TrendOptions& ask
   own.reading.reading.whole_files = false;
   TrendOptions options = asked;
   options.threads = 1;
+  const ColumnList<TrendFigures> columns = TrendColumns();
   BatchTaskType task;
   task.name = "trend";
-  task.columns = TrendColumns();
+  task.columns = HeadsOf(columns);
   task.options = NonDefaults(options, kTrendOptionTable);
   if (own.law) {
     task.options.push_back({"law", own.law->law + ", " + TextDigest(LawText(*own.law)), ""});
   }
-  task.run = [own, options](const BatchCurve& device, std::uint64_t seed,
-                            const Observer& observer) {
+  task.run = [own, options, columns](const BatchCurve& device, std::uint64_t seed,
+                                     const Observer& observer) {
     TrendOptions seeded = options;
     seeded.seed = seed;
     bool stopped = false;
@@ -251,7 +221,7 @@ BatchTaskType TrendTask(const TrendReadOptions& reading, const TrendOptions& ask
     };
     auto report = TrendOfFile(device, own, seeded, watched);
     if (!report) return TaskResult{RowStatus::kBroken, report.error().message, {}, stopped};
-    TaskResult result{RowStatus::kFine, "", TrendCells(*report), stopped};
+    TaskResult result{RowStatus::kFine, "", CellsOf(columns, TrendFigures(*report)), stopped};
     result.failed = !report->onsets.empty();
     result.page = [report = std::make_shared<const TrendReport>(std::move(*report))](
                       const PageOptions& page) {

@@ -32,7 +32,7 @@ constexpr std::uintmax_t kLargestSchema = 16U << 20;
 template <class See>
 Expected<void> ForGroups(const std::vector<std::string>& parts,
                          const std::vector<ResultColumn>& columns, const See& see) {
-  const std::size_t id_place = ColumnPlace(columns, "id");
+  const RowReader cells(columns);
   std::string parent;
   RowGroup group;
   const auto end = [&]() -> Expected<void> {
@@ -47,8 +47,7 @@ Expected<void> ForGroups(const std::vector<std::string>& parts,
       TRY(const auto json, reader.Next());
       if (!json) break;
       ResultRow row = RowOf(columns, *json);
-      const auto* const id = CellAt<std::string>(row, id_place);
-      std::string above = id == nullptr ? std::string() : ParentOf(*id);
+      std::string above = ParentOf(cells.Text(row, "id"));
       if (above != parent || above.empty()) {
         TRY(end());
         large = false;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <optional>
+#include <map>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -27,104 +27,52 @@ constexpr std::uintmax_t kLargestEarlierSchema = 16U << 20;
 constexpr char kEarlierTask[] = "field-test";
 constexpr char kCopyHead[] = "lyrefit_before";
 
-// Texts that are read.
-enum EarlierColumn { kEarlierId, kEarlierCause, kEarlierAbout, kEarlierDate, kEarlierTexts };
-constexpr const char* kEarlierNames[] = {"id", "cause", "cause_about", "date"};
-struct EarlierRow {
-  std::array<std::string, kEarlierTexts> texts;
-  std::array<double, kCampaignKept> values{}, expanded{};
-};
-
-void TakeRow(EarlierRow row, EarlierResults* results) {
-  const std::string& date = row.texts[kEarlierDate];
-  if (!date.empty()) {
-    if (results->first_date.empty() || date < results->first_date) results->first_date = date;
-    results->last_date = std::max(results->last_date, date);
-  }
-  CampaignString string;
-  string.id = std::move(row.texts[kEarlierId]);
-  string.cause = std::move(row.texts[kEarlierCause]);
-  string.repeat = IsOfSweep(row.texts[kEarlierAbout]);
-  for (int q = 0; q < kCampaignKept; ++q) {
-    string.values[q] = static_cast<float>(row.values[q]);
-    string.expanded[q] = static_cast<float>(row.expanded[q]);
-  }
-  results->strings.push_back(std::move(string));
-}
-
 tl::unexpected<Error> NoColumn(const char* name, const std::string& path, int line) {
   return Fail(
       fmt::format("expected results of batch --task {}, found no column {}", kEarlierTask, name),
       path, line);
 }
 
-Expected<double> NumberOf(const nlohmann::json& json, const char* name) {
-  if (json.is_null()) return kUnknown;
-  if (json.is_number()) return json.get<double>();
-  return Fail(fmt::format("{}: expected a number, found {}", name, json.dump()));
-}
-
-Expected<EarlierRow> JsonEarlierRow(const nlohmann::json& json, const std::string& path, int line) {
-  EarlierRow row;
-  for (int k = 0; k < kEarlierTexts; ++k) {
-    const auto found = json.find(kEarlierNames[k]);
-    if (k == kEarlierId && found == json.end()) return NoColumn("id", path, line);
-    if (found != json.end() && found->is_string()) row.texts[k] = found->get<std::string>();
-  }
-  const auto take = [&](const char* name, double* value) -> Expected<void> {
-    const auto found = json.find(name);
-    if (found == json.end()) return NoColumn(name, path, line);
-    const Expected<double> number = NumberOf(*found, name);
-    if (!number) return Fail(number.error().message, path, line);
-    *value = *number;
-    return {};
+// Takes a row of results: an object with the columns that are needed.
+Expected<void> TakeRow(const nlohmann::json& row, const std::string& path, int line,
+                       EarlierResults* results) {
+  if (!row.is_object()) return Fail("expected a JSON object, a row of results", path, line);
+  if (!row.contains("id")) return NoColumn("id", path, line);
+  const auto text = [&](const char* name) {
+    const auto found = row.find(name);
+    return found != row.end() && found->is_string() ? found->get<std::string>() : "";
   };
+  CampaignString string;
+  string.id = text("id");
+  string.cause = text("cause");
+  string.repeat = IsOfSweep(text("cause_about"));
   for (int q = 0; q < kCampaignKept; ++q) {
-    TRY(take(kFigureColumns[q], &row.values[q]));
-    TRY(take(kExpandedColumns[q], &row.expanded[q]));
+    for (const auto& [name, value] : {std::pair{kFigureColumns[q], &string.values[q]},
+                                      std::pair{kExpandedColumns[q], &string.expanded[q]}}) {
+      const auto found = row.find(name);
+      if (found == row.end()) return NoColumn(name, path, line);
+      if (!found->is_number() && !found->is_null()) {
+        return Fail(fmt::format("{}: expected a number, found {}", name, found->dump()), path,
+                    line);
+      }
+      *value = static_cast<float>(found->is_null() ? kUnknown : found->get<double>());
+    }
   }
-  return row;
+  const std::string date = text("date");
+  if (!date.empty()) {
+    if (results->first_date.empty() || date < results->first_date) results->first_date = date;
+    results->last_date = std::max(results->last_date, date);
+  }
+  results->strings.push_back(std::move(string));
+  return {};
 }
 
 Expected<void> ReadJsonRows(const std::string& path, std::istream* file, int line,
                             EarlierResults* results) {
   for (std::string text; std::getline(*file, text);) {
-    ++line;
-    const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_object()) return Fail("expected a JSON object, a row of results", path, line);
-    TRY(EarlierRow row, JsonEarlierRow(json, path, line));
-    TakeRow(std::move(row), results);
+    TRY(TakeRow(nlohmann::json::parse(text, nullptr, false), path, ++line, results));
   }
   return {};
-}
-
-// Positions of the columns in the head of a CSV file.
-struct CsvPlaces {
-  std::array<std::optional<std::size_t>, kEarlierTexts> texts;
-  std::array<std::size_t, kCampaignKept> values{}, expanded{};
-  std::size_t count = 0;
-};
-
-Expected<CsvPlaces> CsvPlacesOf(const LineSplitter& head, const std::string& path) {
-  CsvPlaces places;
-  places.count = head.size();
-  const auto find = [&](const char* name) -> std::optional<std::size_t> {
-    for (std::size_t k = 0; k < head.size(); ++k) {
-      if (head[k] == name) return k;
-    }
-    return std::nullopt;
-  };
-  for (int k = 0; k < kEarlierTexts; ++k) places.texts[k] = find(kEarlierNames[k]);
-  if (!places.texts[kEarlierId]) return NoColumn("id", path, 1);
-  for (int q = 0; q < kCampaignKept; ++q) {
-    for (const auto& [name, place] : {std::pair{kFigureColumns[q], &places.values[q]},
-                                      std::pair{kExpandedColumns[q], &places.expanded[q]}}) {
-      const auto found = find(name);
-      if (!found) return NoColumn(name, path, 1);
-      *place = *found;
-    }
-  }
-  return places;
 }
 
 Expected<void> ReadCsvRows(const std::string& path, std::istream* file, EarlierResults* results) {
@@ -133,35 +81,44 @@ Expected<void> ReadCsvRows(const std::string& path, std::istream* file, EarlierR
   if (!std::getline(*file, text) || !splitter.Split(text)) {
     return Fail("expected the head of results.csv", path, 1);
   }
-  TRY(const CsvPlaces places, CsvPlacesOf(splitter, path));
+  std::map<std::string, std::size_t> places;
+  const std::size_t count = splitter.size();
+  for (std::size_t k = 0; k < count; ++k) places.emplace(splitter[k], k);
+  std::vector<const char*> figures;
+  for (int q = 0; q < kCampaignKept; ++q) {
+    figures.insert(figures.end(), {kFigureColumns[q], kExpandedColumns[q]});
+  }
+  if (places.count("id") == 0) return NoColumn("id", path, 1);
+  for (const char* name : figures) {
+    if (places.count(name) == 0) return NoColumn(name, path, 1);
+  }
   for (int line = 2; std::getline(*file, text); ++line) {
     if (!splitter.Split(text)) return Fail("expected closed quotes in one line", path, line, 1);
-    if (splitter.size() != places.count) {
+    if (splitter.size() != count) {
       return Fail(
-          fmt::format("expected {} fields as in the head, found {}", places.count, splitter.size()),
-          path, line, 1);
+          fmt::format("expected {} fields as in the head, found {}", count, splitter.size()), path,
+          line, 1);
     }
-    EarlierRow row;
-    for (int k = 0; k < kEarlierTexts; ++k) {
-      if (places.texts[k]) {
-        row.texts[k] = WithoutApostrophe(std::string(splitter[*places.texts[k]]));
-      }
+    nlohmann::json row;
+    for (const char* name : {"id", "cause", "cause_about", "date"}) {
+      const auto found = places.find(name);
+      if (found == places.end()) continue;
+      row[name] = WithoutApostrophe(std::string(splitter[found->second]));
     }
-    const auto number = [&](std::size_t place, double* value) -> Expected<void> {
-      const std::string_view field = splitter[place];
-      *value = kUnknown;
-      if (field.empty()) return {};
+    for (const char* name : figures) {
+      const std::string_view field = splitter[places.at(name)];
+      row[name] = nullptr;
+      if (field.empty()) continue;
+      double value = kUnknown;
       const char* const end = field.data() + field.size();
-      const auto read = std::from_chars(field.data(), end, *value);
-      if (read.ec == std::errc() && read.ptr == end) return {};
-      return Fail(fmt::format("expected a number, found '{}'", field), path, line,
-                  FieldColumn(text, ',', place));
-    };
-    for (int q = 0; q < kCampaignKept; ++q) {
-      TRY(number(places.values[q], &row.values[q]));
-      TRY(number(places.expanded[q], &row.expanded[q]));
+      const auto read = std::from_chars(field.data(), end, value);
+      if (read.ec != std::errc() || read.ptr != end) {
+        return Fail(fmt::format("expected a number, found '{}'", field), path, line,
+                    FieldColumn(text, ',', places.at(name)));
+      }
+      row[name] = value;
     }
-    TakeRow(std::move(row), results);
+    TRY(TakeRow(row, path, line, results));
   }
   return {};
 }

@@ -1,17 +1,17 @@
 #include "plant/scale_rows.h"
 
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "lyrefit/base/append.h"
 #include "lyrefit/batch/count_rows.h"
 
 namespace lyrefit {
+namespace {
 
-ScaleMember ScaleReader::Read(const ResultRow& row) const {
-  const auto text = [&](const char* name) { return reader_.Text(row, name); };
-  const auto number = [&](const char* name) { return reader_.Number(row, name); };
+ScaleMember MemberOf(const RowReader& reader, const ResultRow& row) {
+  const auto text = [&](const char* name) { return reader.Text(row, name); };
+  const auto number = [&](const char* name) { return reader.Number(row, name); };
   const auto count = [&](const char* name, int usual) {
     const double value = number(name);
     return std::isfinite(value) ? static_cast<int>(value) : usual;
@@ -38,19 +38,21 @@ ScaleMember ScaleReader::Read(const ResultRow& row) const {
   return member;
 }
 
+}  // namespace
+
 // All of a combiner together, other rows one by one.
 std::vector<std::vector<ScaleMember>> ScaleAddition::MembersOf(const RowGroup& group) const {
   std::vector<std::vector<ScaleMember>> members;
   for (const ResultRow& row : group.rows) {
     if (members.empty() || !group.together) members.emplace_back();
-    members.back().push_back(reader_->Read(row));
+    members.back().push_back(MemberOf(*reader_, row));
   }
   return members;
 }
 
 Expected<void> ScaleAddition::Open(const RowsInput& input) {
-  reader_ = ScaleReader(input.columns);
-  if (!reader_->reads()) reader_.reset();
+  reader_ = RowReader(input.columns);
+  if (!reader_->Has(kSlopeColumn)) reader_.reset();
   level_ = input.head.at("options").value("group-level", 0.0);
   scatter_ = {};
   rows_ = 0;

@@ -13,19 +13,7 @@
 
 namespace lyrefit {
 
-// The members of a group of rows.
-class ScaleReader {
- public:
-  explicit ScaleReader(const std::vector<ResultColumn>& columns) : reader_(columns) {}
-  // Whether the rows have what the comparison needs: those of WithPlan.
-  bool reads() const { return reader_.Has(kSlopeColumn); }
-  ScaleMember Read(const ResultRow& row) const;
-
- private:
-  RowReader reader_;
-};
-
-// Adds the judgement of the scale to rows that have what it needs.
+// Adds the judgement of the scale to rows that have what it needs: those of WithPlan.
 class ScaleAddition final : public BatchAddition {
  public:
   explicit ScaleAddition(PlantResults* results) : results_(results) {}
@@ -41,7 +29,7 @@ class ScaleAddition final : public BatchAddition {
 
   PlantResults* const results_;
   // What is learned of one run.
-  std::optional<ScaleReader> reader_;  // empty: the rows lack what is needed
+  std::optional<RowReader> reader_;  // empty: the rows lack what is needed
   double level_ = 0;
   ScaleScatter scatter_;
   std::int64_t rows_ = 0;

@@ -122,9 +122,6 @@ bool MayBeOfScale(const std::string& cause) {
   return IsOf(cause, {"series_resistance", "fill_factor"});
 }
 
-StringJudge::StringJudge(const std::vector<ResultColumn>& columns)
-    : reader_(columns), judges_(reader_.Has("zone") || reader_.Has("plan_cause")) {}
-
 StringVerdict StringJudge::OfCurve(const ResultRow& row) const {
   StringVerdict verdict;
   verdict.cause = reader_.Text(row, "cause");

@@ -58,9 +58,9 @@ struct StringVerdict {
 // Judges the rows of a table of results.
 class StringJudge {
  public:
-  explicit StringJudge(const std::vector<ResultColumn>& columns);
+  explicit StringJudge(const std::vector<ResultColumn>& columns) : reader_(columns) {}
   // Whether the rows are of strings of a plant: they have a zone or a plan.
-  bool judges() const { return judges_; }
+  bool judges() const { return reader_.Has("zone") || reader_.Has("plan_cause"); }
   // False for a row whose status is not fine.
   bool IsFine(const ResultRow& row) const;
   // Nothing of a row that is not fine.
@@ -71,7 +71,6 @@ class StringJudge {
   StringVerdict OfPlan(const ResultRow& row) const;
 
   RowReader reader_;
-  bool judges_ = false;
 };
 
 // What the string gives less by its cause, else than its rating; NaN: unknown.

@@ -64,7 +64,7 @@ using ColumnList = std::vector<RowColumn<T>>;
 // Adds the columns of a value and its 95 % interval, of a function that gives all three.
 template <class T, class Function>
 void AddRanged(const std::string& name, const std::string& unit, const std::string& doc,
-               Function ranged_of, ColumnList<T>* columns) {
+               const Function& ranged_of, ColumnList<T>* columns) {
   const auto part = [&](const char* end, const std::string& what, double Ranged::*member) {
     columns->emplace_back(name + end, unit, what,
                           [=](const T& of) { return ranged_of(of).*member; });
@@ -77,6 +77,7 @@ void AddRanged(const std::string& name, const std::string& unit, const std::stri
 template <class T>
 std::vector<ResultColumn> HeadsOf(const ColumnList<T>& columns) {
   std::vector<ResultColumn> heads;
+  heads.reserve(columns.size());
   for (const RowColumn<T>& column : columns) heads.push_back(column.head);
   return heads;
 }
@@ -84,6 +85,7 @@ std::vector<ResultColumn> HeadsOf(const ColumnList<T>& columns) {
 template <class T>
 std::vector<ResultCell> CellsOf(const ColumnList<T>& columns, const T& of) {
   std::vector<ResultCell> cells;
+  cells.reserve(columns.size());
   for (const RowColumn<T>& column : columns) cells.push_back(column.cell(of));
   return cells;
 }

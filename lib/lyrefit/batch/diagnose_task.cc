@@ -19,6 +19,7 @@ struct DiagnoseRow {
 template <class Named>
 ResultCell IdsCell(const std::vector<Named>& all) {
   std::vector<std::string> ids;
+  ids.reserve(all.size());
   for (const Named& one : all) ids.push_back(one.id);
   return ListCell(ids);
 }

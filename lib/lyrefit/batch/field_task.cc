@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -70,9 +72,10 @@ ColumnList<FieldRow> FieldColumns() {
   for (const auto& [name, unit] : std::vector<std::pair<std::string, std::string>>{
            {"Isc", "A"}, {"Voc", "V"}, {"Imp", "A"}, {"Vmp", "V"}, {"Pmax", "W"}, {"FF", ""}}) {
     const std::string end = unit.empty() ? "" : "_" + unit;
-    columns.emplace_back(name + "_stc" + end, unit, name + " at 1000 W/m2 and 25 C",
+    columns.emplace_back(fmt::format("{}_stc{}", name, end), unit, name + " at 1000 W/m2 and 25 C",
                          [q](Of of) { return of.Output(q).value; });
-    columns.emplace_back(name + "_stc_U" + end, unit, "its expanded uncertainty, k = 2",
+    columns.emplace_back(fmt::format("{}_stc_U{}", name, end), unit,
+                         "its expanded uncertainty, k = 2",
                          [q](Of of) { return of.Output(q).expanded_uncertainty; });
     ++q;
   }

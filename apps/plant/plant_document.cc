@@ -120,7 +120,7 @@ block::Table WorstTable(const PlantSummary& summary, const std::string& results)
                           Number(row.lost_W(), 0), Number(row.performance_factor, 3),
                           Number(row.Pmax_stc_W, 0), row.verdict.zone,
                           Number(row.lost_now_percent, 2), row.largest_loss, row.onset_date,
-                          judged ? SeenOf(row.verdict) : "", row.verdict.action});
+                          judged ? SeenOf(row.verdict) : "", row.verdict.cause.action});
     table.links.push_back(LinkOf(row, results));
   }
   return WithoutEmptyColumns(std::move(table));

@@ -25,18 +25,20 @@ void Count(const std::string& word, const PlantRow& row,
   if (word.empty()) return;
   PlantShare& share = ShareOf(word, shares);
   ++share.rows;
-  if (row.verdict.lost_W > 0) share.recoverable_power_W += row.verdict.lost_W;
+  const double power_W = row.verdict.cause.recoverable_power_W.value;
+  if (power_W > 0) share.recoverable_power_W += power_W;
   if (row.below_rating_W > 0) share.below_rating_W += row.below_rating_W;
-  if (share.title.empty()) share.title = row.verdict.title;
+  if (share.title.empty()) share.title = row.verdict.cause.title;
 }
 
 // The cause of a row, and its title.
 std::string CauseOf(const PlantRow& row) {
-  return row.verdict.cause.empty() ? kNoCause : row.verdict.cause;
+  return row.verdict.cause.id.empty() ? kNoCause : row.verdict.cause.id;
 }
 
 std::string TitleOf(const PlantRow& row) {
-  return row.verdict.cause.empty() || row.verdict.title.empty() ? CauseOf(row) : row.verdict.title;
+  const Cause& cause = row.verdict.cause;
+  return cause.id.empty() || cause.title.empty() ? CauseOf(row) : cause.title;
 }
 
 bool Passes(const std::string& zone) { return zone.rfind("pass", 0) == 0; }
@@ -120,7 +122,7 @@ void PlantCounter::CountWords(const PlantRow& row, const std::string& status) {
     return;
   }
   Count(row.verdict.zone, row, &sum_.zones);
-  const bool named = !row.verdict.cause.empty();
+  const bool named = !row.verdict.cause.id.empty();
   if (row.verdict.NeedsWork()) Count(CauseOf(row), row, &sum_.causes);
   if (row.verdict.to_do == ToDo::kMeasureAgain) Count(CauseOf(row), row, &sum_.causes_to_repeat);
   if (row.verdict.to_do == ToDo::kInspect && named)
@@ -157,7 +159,8 @@ void PlantCounter::Add(const ResultRow& row) {
   sum_.in_need += needs_work ? 1 : 0;
   sum_.to_repeat += named.verdict.to_do == ToDo::kMeasureAgain ? 1 : 0;
   if (std::isfinite(named.Pmax_stc_W)) sum_.power_W += named.Pmax_stc_W;
-  if (needs_work && named.verdict.lost_W > 0) sum_.recoverable_power_W += named.verdict.lost_W;
+  const double power_W = named.verdict.cause.recoverable_power_W.value;
+  if (needs_work && power_W > 0) sum_.recoverable_power_W += power_W;
   if (differs && !needs_work) ++sum_.passed_outlier;
   if (needs_work && named.below_rating_W > 0) sum_.below_rating_W += named.below_rating_W;
   CountWords(named, status);

@@ -8,8 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/constants.h"
-#include "lyrefit/batch/column.h"
+#include "lyrefit/batch/cause_columns.h"
 
 namespace lyrefit {
 namespace {
@@ -177,15 +178,14 @@ double LostWatts(const Judged& judged, const ScaleMember& member) {
 }
 
 struct ScaleRow {
+  ScaleRow(const Judged& found, const ScaleMember& of);
+
   const Judged& judged;
   const ScaleMember& member;
+  Cause cause;  // without a name only its sentence
 
   bool Differs() const { return judged.verdict.cause != ScaleCause::kNone; }
   bool Named() const { return Differs() && judged.verdict.cause != ScaleCause::kSomethingElse; }
-  // A text of the cause; empty without a name.
-  std::string Text(const char* ScaleCauseText::*text) const {
-    return Named() ? TextOf(judged.verdict.cause).*text : "";
-  }
   std::string Sentence() const;
   std::vector<std::string> Equivalents() const;
   std::vector<std::string> Tests() const;
@@ -225,53 +225,61 @@ std::vector<std::string> ScaleRow::Tests() const {
   return tests;
 }
 
+ScaleRow::ScaleRow(const Judged& found, const ScaleMember& of) : judged(found), member(of) {
+  cause.sentence = Sentence();
+  cause.equivalents = Equivalents();
+  cause.separate_by = Tests();
+  if (!Named()) return;
+  const ScaleCauseText& words = TextOf(judged.verdict.cause);
+  cause.id = ToText(judged.verdict.cause);
+  cause.title = words.title;
+  cause.group = words.about;
+  cause.action = words.action;
+  cause.probability = judged.verdict.probability;
+  cause.recoverable_power_W.value = LostWatts(judged, member);
+}
+
 const ColumnList<ScaleRow>& JudgedColumns() {
   using Of = const ScaleRow&;
-  static const ColumnList<ScaleRow> columns = {
-      {"plan_cause", "",
-       "the fault by which the string differs from its plan and its neighbours in scale, the most "
-       "probable: missing_module, bypassed_substring, reversed_module, disconnected_string, "
-       "wrong_module_type, extra_module, cable_resistance, uniform_soiling, light_sensor, "
-       "temperature_sensor, exchanged_strings; none: nothing beyond the errors, or nothing that "
-       "one of these explains",
-       [](Of of) { return of.Named() ? ToText(of.judged.verdict.cause) : ""; }},
-      {"plan_cause_title", "", "the same in a few words",
-       [](Of of) { return of.Text(&ScaleCauseText::title); }},
-      {"plan_cause_about", "",
-       "what it belongs to: device; conditions, for a sensor; plan, for a list to be corrected",
-       [](Of of) { return of.Text(&ScaleCauseText::about); }},
-      {"plan_sentence", "", "the same for a technician, with its size", &ScaleRow::Sentence},
-      {"plan_equivalents", "", "causes that the readings cannot tell from it",
-       [](Of of) { return ListCell(of.Equivalents()); }},
-      {"plan_separate_by", "", "measurements that would, with '; ' between them",
-       [](Of of) { return ListCell(of.Tests(), "; "); }},
-      {"plan_action", "", "the next thing to do about it",
-       [](Of of) { return of.Text(&ScaleCauseText::action); }},
-      {"plan_probability", "", "of the cause, against all others",
-       [](Of of) { return of.Named() ? of.judged.verdict.probability : kUnknown; }},
-      {"plan_lost_W", "W",
-       "what the string gives less than without the cause, in the light of the sweep",
-       [](Of of) { return of.Named() ? LostWatts(of.judged, of.member) : kUnknown; }},
-      {"plan_shared", "", "all strings of the combiner have it",
-       [](Of of) { return of.Named() ? std::optional<bool>(of.judged.shared) : std::nullopt; }},
-      {"plan_p", "", "p-value of the difference of a healthy string",
-       [](Of of) {
-         const bool known = std::isfinite(of.judged.deviation[kScaleVoc]);
-         return known && of.member.own_cause.empty() ? of.judged.verdict.p_value : kUnknown;
-       }},
-      {"plan_Isc_percent", "%",
-       "short-circuit current per light against the plan or the median of the combiner, what all "
-       "its strings share taken off unless plan_shared",
-       [](Of of) { return Percent(of.judged.deviation[kScaleIsc]); }},
-      {"plan_Voc_percent", "%", "open-circuit voltage in the same way",
-       [](Of of) { return Percent(of.judged.deviation[kScaleVoc]); }},
-      {"plan_FF_percent", "%", "fill factor in the same way",
-       [](Of of) { return Percent(of.judged.deviation[kScaleFill]); }},
-      {"plan_Vmp_percent", "%", "voltage at maximum power in parts of Voc in the same way",
-       [](Of of) { return Percent(of.judged.deviation[kScaleVmp]); }},
-      {"plan_slope_percent", "%", "slope times Isc / Voc in the same way",
-       [](Of of) { return Percent(of.judged.deviation[kScaleSlope]); }},
-  };
+  static const ColumnList<ScaleRow> columns = [] {
+    ColumnList<ScaleRow> all = CauseColumns<ScaleRow>(
+        "plan_",
+        {"the fault by which the string differs from its plan and its neighbours in scale, the "
+         "most "
+         "probable: missing_module, bypassed_substring, reversed_module, disconnected_string, "
+         "wrong_module_type, extra_module, cable_resistance, uniform_soiling, light_sensor, "
+         "temperature_sensor, exchanged_strings; none: nothing beyond the errors, or nothing that "
+         "one of these explains",
+         "what it belongs to: device; conditions, for a sensor; plan, for a list to be corrected",
+         "of the cause, against all others"},
+        &ScaleRow::cause);
+    Append(
+        {{"plan_lost_W", "W",
+          "what the string gives less than without the cause, in the light of the sweep",
+          [](Of of) { return of.cause.recoverable_power_W.value; }},
+         {"plan_shared", "", "all strings of the combiner have it",
+          [](Of of) { return of.Named() ? std::optional<bool>(of.judged.shared) : std::nullopt; }},
+         {"plan_p", "", "p-value of the difference of a healthy string",
+          [](Of of) {
+            const bool known = std::isfinite(of.judged.deviation[kScaleVoc]);
+            return known && of.member.own_cause.empty() ? of.judged.verdict.p_value : kUnknown;
+          }},
+         {"plan_Isc_percent", "%",
+          "short-circuit current per light against the plan or the median of the combiner, what "
+          "all "
+          "its strings share taken off unless plan_shared",
+          [](Of of) { return Percent(of.judged.deviation[kScaleIsc]); }},
+         {"plan_Voc_percent", "%", "open-circuit voltage in the same way",
+          [](Of of) { return Percent(of.judged.deviation[kScaleVoc]); }},
+         {"plan_FF_percent", "%", "fill factor in the same way",
+          [](Of of) { return Percent(of.judged.deviation[kScaleFill]); }},
+         {"plan_Vmp_percent", "%", "voltage at maximum power in parts of Voc in the same way",
+          [](Of of) { return Percent(of.judged.deviation[kScaleVmp]); }},
+         {"plan_slope_percent", "%", "slope times Isc / Voc in the same way",
+          [](Of of) { return Percent(of.judged.deviation[kScaleSlope]); }}},
+        &all);
+    return all;
+  }();
   return columns;
 }
 
@@ -286,7 +294,7 @@ std::vector<std::vector<ResultCell>> ScaleCells(const std::vector<ScaleMember>& 
   std::vector<std::vector<ResultCell>> cells;
   for (std::size_t i = 0; i < group.size(); ++i) {
     const Judged judged = judge.Judge(i);
-    cells.push_back(CellsOf(JudgedColumns(), ScaleRow{judged, group[i]}));
+    cells.push_back(CellsOf(JudgedColumns(), ScaleRow(judged, group[i])));
   }
   return cells;
 }

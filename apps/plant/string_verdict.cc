@@ -1,6 +1,7 @@
 #include "plant/string_verdict.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,7 @@
 #include "lyrefit/base/append.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/batch/column.h"
+#include "lyrefit/batch/cause_columns.h"
 #include "lyrefit/batch/string_pages.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -29,40 +30,33 @@ bool IsPassed(const std::string& zone) { return zone.rfind("pass", 0) == 0; }
 bool IsFailed(const std::string& zone) { return zone.rfind("fail", 0) == 0; }
 
 // Single wrong readings are left out and disturb nothing else.
-bool IsLeftOut(const StringVerdict& verdict) { return verdict.cause == "outliers"; }
+bool IsLeftOut(const Cause& cause) { return cause.id == "outliers"; }
 
 ToDo ToDoOf(const StringVerdict& verdict) {
   const std::string& zone = verdict.zone;
-  const bool named = !verdict.cause.empty() && !IsLeftOut(verdict);
-  if (named && IsOf(verdict.about, {"sweep", "instrument", "conditions"})) {
-    return ToDo::kMeasureAgain;
-  }
-  if (named && verdict.about == "plan") return ToDo::kCorrectPlan;
+  const Cause& cause = verdict.cause;
+  const bool named = !cause.id.empty() && !IsLeftOut(cause);
+  if (named && IsOf(cause.group, {"sweep", "instrument", "conditions"})) return ToDo::kMeasureAgain;
+  if (named && cause.group == "plan") return ToDo::kCorrectPlan;
   if (IsFailed(zone)) return ToDo::kWork;
   if (named) return IsPassed(zone) ? ToDo::kInspect : ToDo::kWork;
-  const bool differs =
-      !verdict.outlier.empty() || (!verdict.sentence.empty() && !IsLeftOut(verdict));
+  const bool differs = !verdict.outlier.empty() || (!cause.sentence.empty() && !IsLeftOut(cause));
   return differs && !IsPassed(zone) ? ToDo::kInspect : ToDo::kNothing;
 }
 
 // Whether the fault by the plan takes the place of the cause of the curve.
-bool PlanGoesFirst(const StringVerdict& curve, const StringVerdict& plan) {
+bool PlanGoesFirst(const Cause& curve, const Cause& plan) {
   if (plan.sentence.empty()) return false;
-  if (curve.cause.empty()) return true;
-  if (plan.cause.empty()) return false;
-  if (curve.about != "device") return true;
-  return MayBeOfScale(curve.cause) && !(curve.lost_W > plan.lost_W);
+  if (curve.id.empty()) return true;
+  if (plan.id.empty()) return false;
+  if (curve.group != "device") return true;
+  return MayBeOfScale(curve.id) &&
+         !(curve.recoverable_power_W.value > plan.recoverable_power_W.value);
 }
 
-std::string InWords(const std::string& ids) {
-  std::string text;
-  for (const char c : ids) {
-    if (c == ' ') {
-      text += ", or ";
-    } else {
-      text += c == '_' ? ' ' : c;
-    }
-  }
+std::string InWords(const std::vector<std::string>& ids) {
+  std::string text = fmt::format("{}", fmt::join(ids, ", or "));
+  std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
 
@@ -74,8 +68,8 @@ std::string Sentence(std::string text) {
 
 std::string ToDoIn(const StringVerdict& verdict) {
   const std::string what = "to do: " + std::string(ToText(verdict.to_do));
-  const bool only = verdict.to_do == ToDo::kNothing || verdict.action.empty();
-  return Sentence(only ? what : what + ": " + verdict.action);
+  const bool only = verdict.to_do == ToDo::kNothing || verdict.cause.action.empty();
+  return Sentence(only ? what : what + ": " + verdict.cause.action);
 }
 
 std::string Shown(const std::string& from) {
@@ -85,33 +79,39 @@ std::string Shown(const std::string& from) {
 }
 
 const ColumnList<StringVerdict>& VerdictColumns() {
-  static const ColumnList<StringVerdict> columns = {
-      {"string_to_do", "",
-       "the verdict of the string, of its curve, its plan, its neighbours and its rating together: "
-       "nothing, inspect (it passes and shows a fault), work, correct the plan, or measure again",
-       [](const StringVerdict& of) { return ToText(of.to_do); }},
-      {"string_cause", "", "its cause: the id of cause or of plan_cause; empty: none is named",
-       &StringVerdict::cause},
-      {"string_cause_title", "", "the same in a few words", &StringVerdict::title},
-      {"string_cause_about", "",
-       "what it belongs to: device; sweep, instrument or conditions, to be measured again; plan; "
-       "or unknown",
-       &StringVerdict::about},
-      {"string_cause_from", "", "what shows it: curve, plan or neighbours", &StringVerdict::from},
-      {"string_sentence", "", "the same for a technician, with its size", &StringVerdict::sentence},
-      {"string_action", "", "the next thing to do about it", &StringVerdict::action},
-      {"string_probability", "", "of the cause, against all others", &StringVerdict::probability},
-      {"string_lost_W", "W",
-       "what the string gives less than without the cause, in the light of the sweep",
-       &StringVerdict::lost_W},
-  };
+  using Of = const StringVerdict&;
+  static const ColumnList<StringVerdict> columns = [] {
+    ColumnList<StringVerdict> all = {
+        {"string_to_do", "",
+         "the verdict of the string, of its curve, its plan, its neighbours and its rating "
+         "together: "
+         "nothing, inspect (it passes and shows a fault), work, correct the plan, or measure again",
+         [](Of of) { return ToText(of.to_do); }}};
+    Append(
+        CauseColumns<StringVerdict>(
+            "string_",
+            {"its cause: the id of cause or of plan_cause; empty: none is named",
+             "what it belongs to: device; sweep, instrument or conditions, to be measured again; "
+             "plan; or unknown",
+             "of the cause, against all others"},
+            &StringVerdict::cause),
+        &all);
+    Append({{"string_cause_from", "", "what shows it: curve, plan or neighbours",
+             &StringVerdict::from},
+            {"string_lost_W", "W",
+             "what the string gives less than without the cause, in the light of the sweep",
+             [](Of of) { return of.cause.recoverable_power_W.value; }}},
+           &all);
+    return all;
+  }();
   return columns;
 }
 
 }  // namespace
 
 double LostBy(const StringVerdict& verdict, double below_rating_W) {
-  return std::isfinite(verdict.lost_W) ? verdict.lost_W : below_rating_W;
+  const double lost_W = verdict.cause.recoverable_power_W.value;
+  return std::isfinite(lost_W) ? lost_W : below_rating_W;
 }
 
 bool IsNoCause(const std::string& cause) {
@@ -122,42 +122,15 @@ bool MayBeOfScale(const std::string& cause) {
   return IsOf(cause, {"series_resistance", "fill_factor"});
 }
 
-StringVerdict StringJudge::OfCurve(const ResultRow& row) const {
-  StringVerdict verdict;
-  verdict.cause = reader_.Text(row, "cause");
-  if (IsNoCause(verdict.cause)) verdict.cause.clear();
-  if (verdict.cause.empty()) return verdict;
-  verdict.from = "curve";
-  verdict.title = reader_.Text(row, "cause_title");
-  verdict.about = reader_.Text(row, "cause_about");
-  verdict.sentence = reader_.Text(row, "cause_sentence");
-  verdict.action = reader_.Text(row, "action");
-  verdict.equivalents = reader_.Text(row, "equivalents");
-  verdict.separate_by = reader_.Text(row, "separate_by");
-  verdict.probability = reader_.Number(row, "probability");
-  verdict.lost_W = reader_.Number(row, "recoverable_power_W");
-  return verdict;
+Cause StringJudge::OfCurve(const ResultRow& row) const {
+  Cause cause = CauseIn(reader_, row, "", "recoverable_power_W");
+  return IsNoCause(cause.id) ? Cause() : cause;
 }
 
-StringVerdict StringJudge::OfPlan(const ResultRow& row) const {
-  StringVerdict verdict;
-  const std::string sentence = reader_.Text(row, "plan_sentence");
-  // Without deviation the sentence says why the string was not compared.
-  if (reader_.Text(row, "plan_cause").empty() && sentence.rfind("not judged", 0) == 0)
-    return verdict;
-  verdict.sentence = sentence;
-  if (sentence.empty()) return verdict;
-  const bool planned = std::isfinite(reader_.Number(row, "plan_modules_in_series"));
-  verdict.from = planned ? "plan" : "neighbours";
-  verdict.cause = reader_.Text(row, "plan_cause");
-  verdict.title = reader_.Text(row, "plan_cause_title");
-  verdict.about = reader_.Text(row, "plan_cause_about");
-  verdict.action = reader_.Text(row, "plan_action");
-  verdict.equivalents = reader_.Text(row, "plan_equivalents");
-  verdict.separate_by = reader_.Text(row, "plan_separate_by");
-  verdict.probability = reader_.Number(row, "plan_probability");
-  verdict.lost_W = reader_.Number(row, "plan_lost_W");
-  return verdict;
+// Without deviation the sentence says why the string was not compared.
+Cause StringJudge::OfPlan(const ResultRow& row) const {
+  Cause cause = CauseIn(reader_, row, "plan_", "plan_lost_W");
+  return cause.id.empty() && cause.sentence.rfind("not judged", 0) == 0 ? Cause() : cause;
 }
 
 bool StringJudge::IsFine(const ResultRow& row) const {
@@ -167,15 +140,21 @@ bool StringJudge::IsFine(const ResultRow& row) const {
 
 StringVerdict StringJudge::Judge(const ResultRow& row) const {
   if (!IsFine(row)) return StringVerdict();
-  StringVerdict curve = OfCurve(row);
-  StringVerdict plan = OfPlan(row);
-  StringVerdict verdict = PlanGoesFirst(curve, plan) ? std::move(plan) : std::move(curve);
+  StringVerdict verdict;
+  verdict.cause = OfCurve(row);
+  if (!verdict.cause.id.empty()) verdict.from = "curve";
+  const Cause plan = OfPlan(row);
+  if (PlanGoesFirst(verdict.cause, plan)) {
+    verdict.cause = plan;
+    const bool planned = std::isfinite(reader_.Number(row, "plan_modules_in_series"));
+    verdict.from = planned ? "plan" : "neighbours";
+  }
   verdict.zone = reader_.Text(row, "zone");
   verdict.outlier = reader_.Text(row, "group_outlier");
   verdict.to_do = ToDoOf(verdict);
-  const bool nameless = verdict.cause.empty() || IsLeftOut(verdict);
+  const bool nameless = verdict.cause.id.empty() || IsLeftOut(verdict.cause);
   if (nameless && (verdict.to_do == ToDo::kWork || verdict.to_do == ToDo::kInspect)) {
-    verdict.action =
+    verdict.cause.action =
         "compare Isc and Voc with those of the neighbours, clean the light sensor and check its "
         "tilt, count the modules, clean one of them and measure again";
   }
@@ -191,39 +170,41 @@ std::vector<ResultCell> StringCells(const StringVerdict& verdict) {
 std::vector<std::string> SentencesOf(const StringVerdict& verdict) {
   const std::string rating =
       verdict.zone.empty() ? "" : Sentence(verdict.zone + " against the rating") + " ";
+  const Cause& cause = verdict.cause;
   std::vector<std::string> sentences;
-  if (verdict.sentence.empty()) {
+  if (cause.sentence.empty()) {
     sentences.push_back(rating + "No cause is named, by the curve or by its neighbours.");
-  } else if (verdict.cause.empty()) {
-    sentences.push_back(rating + Sentence(verdict.sentence));
+  } else if (cause.id.empty()) {
+    sentences.push_back(rating + Sentence(cause.sentence));
   } else {
     const std::string how_sure =
-        std::isfinite(verdict.probability)
-            ? fmt::format("{:.0f} %, {}", 100 * verdict.probability, Shown(verdict.from))
+        std::isfinite(cause.probability)
+            ? fmt::format("{:.0f} %, {}", 100 * cause.probability, Shown(verdict.from))
             : Shown(verdict.from);
     sentences.push_back(
-        rating + Sentence(fmt::format("{} ({}): {}", verdict.title, how_sure, verdict.sentence)));
+        rating + Sentence(fmt::format("{} ({}): {}", cause.title, how_sure, cause.sentence)));
   }
   if (!verdict.outlier.empty()) {
     sentences.push_back(Sentence("against the others of its combiner: " + verdict.outlier));
   }
   sentences.push_back(ToDoIn(verdict));
-  if (!verdict.equivalents.empty() && !verdict.separate_by.empty()) {
-    sentences.push_back(Sentence(fmt::format("it may also be {}; to tell: {}",
-                                             InWords(verdict.equivalents), verdict.separate_by)));
+  if (!cause.equivalents.empty() && !cause.separate_by.empty()) {
+    sentences.push_back(
+        Sentence(fmt::format("it may also be {}; to tell: {}", InWords(cause.equivalents),
+                             fmt::join(cause.separate_by, "; "))));
   }
   return sentences;
 }
 
 std::string SeenOf(const StringVerdict& verdict) {
-  if (verdict.sentence.empty()) {
+  const Cause& cause = verdict.cause;
+  if (cause.sentence.empty()) {
     return verdict.outlier.empty() ? "No cause is named."
                                    : Sentence("it differs from its neighbours: " + verdict.outlier);
   }
-  if (verdict.cause.empty()) return Sentence(verdict.sentence);
-  const std::string others =
-      verdict.equivalents.empty() ? "" : "; or " + InWords(verdict.equivalents);
-  return Sentence(verdict.title + others) + " " + Sentence(verdict.sentence);
+  if (cause.id.empty()) return Sentence(cause.sentence);
+  const std::string others = cause.equivalents.empty() ? "" : "; or " + InWords(cause.equivalents);
+  return Sentence(cause.title + others) + " " + Sentence(cause.sentence);
 }
 
 Expected<void> StringAddition::Open(const RowsInput& input) {

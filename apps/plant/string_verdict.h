@@ -11,6 +11,7 @@
 #include "lyrefit/batch/addition.h"
 #include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/result_row.h"
+#include "lyrefit/model/cause.h"
 
 namespace lyrefit {
 
@@ -38,18 +39,12 @@ struct EnumTable<ToDo> {
 
 struct StringVerdict {
   ToDo to_do = ToDo::kNothing;
-  std::string zone;   // against the rating; empty: no field test
-  std::string from;   // "curve", "plan" or "neighbours": what shows the cause; empty: no cause
-  std::string cause;  // id; empty: none has a name
-  std::string title;
-  std::string about;     // "device", "sweep", "instrument", "conditions", "plan" or "unknown"
-  std::string sentence;  // with its size; also of a difference from the plan without a name
-  std::string action;
-  std::string equivalents;  // ids with a blank between them
-  std::string separate_by;  // with '; ' between them
-  std::string outlier;      // how it differs from the strings of its combiner
-  double probability = kUnknown;
-  double lost_W = kUnknown;  // what the string gives less than without the cause
+  std::string zone;     // against the rating; empty: no field test
+  std::string from;     // "curve", "plan" or "neighbours": what shows the cause; empty: no cause
+  std::string outlier;  // how it differs from the strings of its combiner
+  // What the table says of it. Its id is empty where none has a name; a difference from the plan
+  // without a name has a sentence.
+  Cause cause;
 
   bool NeedsWork() const { return to_do == ToDo::kWork || to_do == ToDo::kCorrectPlan; }
   bool NeedsAVisit() const { return NeedsWork() || to_do == ToDo::kInspect; }
@@ -67,8 +62,8 @@ class StringJudge {
   StringVerdict Judge(const ResultRow& row) const;
 
  private:
-  StringVerdict OfCurve(const ResultRow& row) const;
-  StringVerdict OfPlan(const ResultRow& row) const;
+  Cause OfCurve(const ResultRow& row) const;
+  Cause OfPlan(const ResultRow& row) const;
 
   RowReader reader_;
 };

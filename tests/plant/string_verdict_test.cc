@@ -63,28 +63,28 @@ TEST(StringJudge, DoesWhatRatingAndCauseCallFor) {
   EXPECT_EQ(to_do("fail", "outliers", "instrument"), ToDo::kWork);
   const StringVerdict failed = Judged({{"status", "fine"}, {"zone", "fail"}});
   EXPECT_EQ(failed.to_do, ToDo::kWork);
-  EXPECT_THAT(failed.action, HasSubstr("count the modules"));
+  EXPECT_THAT(failed.cause.action, HasSubstr("count the modules"));
   EXPECT_EQ(Judged({{"status", "fine"}, {"zone", "pass"}}).to_do, ToDo::kNothing);
 }
 
 TEST(StringJudge, PutsThePlanInThePlaceOfWhatTheCurveDoesNotShow) {
   const auto missing = Plan("missing_module", "device", 230);
   const StringVerdict none = Judged(With({{"status", "fine"}, {"zone", "undecided"}}, missing));
-  EXPECT_EQ(none.cause, "missing_module");
+  EXPECT_EQ(none.cause.id, "missing_module");
   EXPECT_EQ(none.from, "plan");
   EXPECT_EQ(none.to_do, ToDo::kWork);
-  EXPECT_EQ(none.lost_W, 230);
+  EXPECT_EQ(none.cause.recoverable_power_W.value, 230);
   const StringVerdict disturbed =
       Judged(With(Curve("undecided", "outliers", "instrument"), missing));
-  EXPECT_EQ(disturbed.cause, "missing_module");
+  EXPECT_EQ(disturbed.cause.id, "missing_module");
   // A resistance of the curve is that of a cable, unless the curve loses more by it.
   const auto resistive = Curve("fail", "series_resistance", "device");
-  EXPECT_EQ(Judged(With(resistive, Plan("cable_resistance", "device", 60))).cause,
+  EXPECT_EQ(Judged(With(resistive, Plan("cable_resistance", "device", 60))).cause.id,
             "cable_resistance");
-  EXPECT_EQ(Judged(With(resistive, Plan("cable_resistance", "device", 20))).cause,
+  EXPECT_EQ(Judged(With(resistive, Plan("cable_resistance", "device", 20))).cause.id,
             "series_resistance");
   // Another fault of the device stays.
-  EXPECT_EQ(Judged(With(Curve("fail", "shading", "device"), missing)).cause, "shading");
+  EXPECT_EQ(Judged(With(Curve("fail", "shading", "device"), missing)).cause.id, "shading");
   EXPECT_EQ(
       Judged(With({{"status", "fine"}, {"zone", "pass"}}, Plan("extra_module", "plan", 0))).to_do,
       ToDo::kCorrectPlan);
@@ -93,15 +93,15 @@ TEST(StringJudge, PutsThePlanInThePlaceOfWhatTheCurveDoesNotShow) {
 TEST(StringJudge, NamesNothingOfAStringThatOnlyDiffers) {
   const StringVerdict differs =
       Judged({{"status", "fine"}, {"cause", {}}, {"group_outlier", "FF -1.13 %"}});
-  EXPECT_EQ(differs.cause, "");
+  EXPECT_EQ(differs.cause.id, "");
   EXPECT_EQ(differs.to_do, ToDo::kInspect);
   EXPECT_EQ(Judged({{"status", "fine"}, {"zone", "pass"}, {"group_outlier", "FF -1.13 %"}}).to_do,
             ToDo::kNothing);
   const StringVerdict not_compared = Judged(
       With(Curve("pass", "shading", "device"),
            {{"plan_sentence", "not judged by its scale, since the curve itself shows shading"}}));
-  EXPECT_EQ(not_compared.sentence, "a sentence");
-  EXPECT_EQ(Judged(With(Curve("fail", "shading", "device"), {{"status", "broken"}})).cause, "");
+  EXPECT_EQ(not_compared.cause.sentence, "a sentence");
+  EXPECT_EQ(Judged(With(Curve("fail", "shading", "device"), {{"status", "broken"}})).cause.id, "");
 }
 
 TEST(StringJudge, JudgesNoRowsOfATaskWithoutCauses) {

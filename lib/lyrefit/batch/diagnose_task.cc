@@ -2,7 +2,8 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/batch/column.h"
+#include "lyrefit/base/append.h"
+#include "lyrefit/batch/cause_columns.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/documents.h"
@@ -26,58 +27,49 @@ ResultCell IdsCell(const std::vector<Named>& all) {
 
 ColumnList<DiagnoseRow> DiagnoseColumns() {
   using Of = const DiagnoseRow&;
-  return {
-      {"cause", "",
-       "what the model gets wrong, a fault of the device before one of the measurement: its id; "
-       "else the first of device_findings, which also goes before single wrong readings; empty: "
-       "nothing",
-       [](Of of) { return of.cause.id; }},
-      {"cause_title", "", "the same in a few words", [](Of of) { return of.cause.title; }},
-      {"cause_about", "",
+  ColumnList<DiagnoseRow> columns = CauseColumns<DiagnoseRow>(
+      "",
+      {"what the model gets wrong, a fault of the device before one of the measurement: its id; "
+       "else "
+       "the first of device_findings, which also goes before single wrong readings; empty: nothing",
        "what it belongs to: device; or a measurement to be repeated: sweep, instrument, "
-       "conditions; or unknown",
-       [](Of of) { return of.cause.group; }},
-      {"cause_sentence", "", "the same for a technician, with its size",
-       [](Of of) { return of.cause.sentence; }},
-      {"equivalents", "", "ids that these readings cannot tell from it",
-       [](Of of) { return ListCell(of.cause.equivalents); }},
-      {"separate_by", "", "measurements that would, with '; ' between them",
-       [](Of of) { return ListCell(of.cause.separate_by, "; "); }},
-      {"action", "", "the next thing to do about it", [](Of of) { return of.cause.action; }},
-      {"probability", "", "that this cause, and no other, is there",
-       [](Of of) { return of.cause.probability; }},
-      {"causes", "", "ids of all causes, the most certain first",
-       [](Of of) { return IdsCell(of.diagnosis.verdict.causes); }},
-      {"below_floor", "", "ids of what is there too but too small to act on",
-       [](Of of) { return IdsCell(of.diagnosis.verdict.below_floor); }},
-      {"unexplained", "",
-       "something is there that no known cause fits; where no cause is named, the model misses "
-       "more than it misses of healthy modules",
-       [](Of of) { return of.diagnosis.verdict.unexplained; }},
-      {"lack_of_fit_percent", "%",
-       "of the readings from the model beyond noise, root mean square in percent of Isc",
-       [](Of of) { return 100 * of.diagnosis.verdict.lack_of_fit.value; }},
-      {"power_effect_percent", "%",
-       "of the cause on Pmax: what the model gets wrong without it, in percent; of a device "
-       "finding what it costs",
-       [](Of of) { return 100 * of.cause.power_effect.value; }},
-      {"recoverable_power_W", "W",
-       "what the device would give more without the cause; empty where only a lower limit is "
-       "known",
-       [](Of of) { return of.cause.recoverable_power_W.value; }},
-      {"recoverable_power_W_low_95", "W", "its 95 % interval, or that lower limit",
-       [](Of of) { return of.cause.recoverable_power_W.low_95; }},
-      {"recoverable_power_W_high_95", "W", "its 95 % interval",
-       [](Of of) { return of.cause.recoverable_power_W.high_95; }},
-      {"device_findings", "",
-       "of leak, ideality, series_resistance what lies above healthy devices, the largest loss "
-       "first",
-       [](Of of) { return IdsCell(of.diagnosis.device_findings); }},
-      {"verdict", "", "the diagnosis in one sentence",
-       [](Of of) { return of.diagnosis.verdict.sentence; }},
-      {"warnings", "", "in plain words, with '; ' between them",
-       [](Of of) { return ListCell(of.diagnosis.warnings, "; "); }},
-  };
+       "conditions; "
+       "or unknown",
+       "that this cause, and no other, is there"},
+      &DiagnoseRow::cause);
+  Append({{"causes", "", "ids of all causes, the most certain first",
+           [](Of of) { return IdsCell(of.diagnosis.verdict.causes); }},
+          {"below_floor", "", "ids of what is there too but too small to act on",
+           [](Of of) { return IdsCell(of.diagnosis.verdict.below_floor); }},
+          {"unexplained", "",
+           "something is there that no known cause fits; where no cause is named, the model misses "
+           "more than it misses of healthy modules",
+           [](Of of) { return of.diagnosis.verdict.unexplained; }},
+          {"lack_of_fit_percent", "%",
+           "of the readings from the model beyond noise, root mean square in percent of Isc",
+           [](Of of) { return 100 * of.diagnosis.verdict.lack_of_fit.value; }},
+          {"power_effect_percent", "%",
+           "of the cause on Pmax: what the model gets wrong without it, in percent; of a device "
+           "finding what it costs",
+           [](Of of) { return 100 * of.cause.power_effect.value; }},
+          {"recoverable_power_W", "W",
+           "what the device would give more without the cause; empty where only a lower limit is "
+           "known",
+           [](Of of) { return of.cause.recoverable_power_W.value; }},
+          {"recoverable_power_W_low_95", "W", "its 95 % interval, or that lower limit",
+           [](Of of) { return of.cause.recoverable_power_W.low_95; }},
+          {"recoverable_power_W_high_95", "W", "its 95 % interval",
+           [](Of of) { return of.cause.recoverable_power_W.high_95; }},
+          {"device_findings", "",
+           "of leak, ideality, series_resistance what lies above healthy devices, the largest loss "
+           "first",
+           [](Of of) { return IdsCell(of.diagnosis.device_findings); }},
+          {"verdict", "", "the diagnosis in one sentence",
+           [](Of of) { return of.diagnosis.verdict.sentence; }},
+          {"warnings", "", "in plain words, with '; ' between them",
+           [](Of of) { return ListCell(of.diagnosis.warnings, "; "); }}},
+         &columns);
+  return columns;
 }
 
 }  // namespace

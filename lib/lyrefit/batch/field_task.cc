@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lyrefit/base/append.h"
-#include "lyrefit/batch/column.h"
+#include "lyrefit/batch/cause_columns.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/translate/translate.h"
@@ -79,33 +79,27 @@ ColumnList<FieldRow> FieldColumns() {
                          [q](Of of) { return of.Output(q).expanded_uncertainty; });
     ++q;
   }
+  Append({{"conditions_met", "", "conditions of the checklist that are met",
+           [](Of of) { return of.report.checklist.met; }},
+          {"conditions_not_met", "", "those that are not, with '; ' between them",
+           [](Of of) { return TitlesCell(of.report.checklist, Condition::kNotMet); }},
+          {"conditions_not_known", "", "those of which nothing is known",
+           [](Of of) { return TitlesCell(of.report.checklist, Condition::kNotKnown); }}},
+         &columns);
   Append(
-      {{"conditions_met", "", "conditions of the checklist that are met",
-        [](Of of) { return of.report.checklist.met; }},
-       {"conditions_not_met", "", "those that are not, with '; ' between them",
-        [](Of of) { return TitlesCell(of.report.checklist, Condition::kNotMet); }},
-       {"conditions_not_known", "", "those of which nothing is known",
-        [](Of of) { return TitlesCell(of.report.checklist, Condition::kNotKnown); }},
-       {"cause", "",
-        "what is wrong with the curve, a fault of the device before one of the measurement: its "
-        "id; leak, ideality, low_ideality, series_resistance or fill_factor where that lies out of "
-        "the range of healthy devices",
-        [](Of of) { return of.cause.id; }},
-       {"cause_about", "",
-        "what that cause belongs to: device; or a measurement to be repeated: sweep, instrument, "
-        "conditions; or unknown",
-        [](Of of) { return of.cause.group; }},
-       {"cause_title", "", "the same in a few words", [](Of of) { return of.cause.title; }},
-       {"cause_sentence", "", "the same for a technician, with its size",
-        [](Of of) { return of.cause.sentence; }},
-       {"equivalents", "", "ids that these readings cannot tell from it",
-        [](Of of) { return ListCell(of.cause.equivalents); }},
-       {"separate_by", "", "measurements that would, with '; ' between them",
-        [](Of of) { return ListCell(of.cause.separate_by, "; "); }},
-       {"action", "", "the next thing to do about it", [](Of of) { return of.cause.action; }},
-       {"probability", "", "that this cause, and no other, is there",
-        [](Of of) { return of.cause.probability; }},
-       {"recoverable_power_W", "W",
+      CauseColumns<FieldRow>(
+          "",
+          {"what is wrong with the curve, a fault of the device before one of the measurement: its "
+           "id; leak, ideality, low_ideality, series_resistance or fill_factor where that lies out "
+           "of "
+           "the range of healthy devices",
+           "what it belongs to: device; or a measurement to be repeated: sweep, instrument, "
+           "conditions; or unknown",
+           "that this cause, and no other, is there"},
+          &FieldRow::cause),
+      &columns);
+  Append(
+      {{"recoverable_power_W", "W",
         "what the string would give more without the cause, in the light of the sweep; empty where "
         "only a lower limit is known",
         [](Of of) { return of.cause.recoverable_power_W.value; }},

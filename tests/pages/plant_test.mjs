@@ -19,8 +19,11 @@ const rowsOf = (plant) => results(plant, 'results.jsonl').split('\n').filter(Boo
 const kOfTheMeasurement = ['sweep', 'instrument', 'conditions'];
 const needsWork = (row) => row.zone.startsWith('fail') ||
     (row.zone === 'undecided' && row.cause !== 'none' && !kOfTheMeasurement.includes(row.cause_about));
-const worstOf = (plant) => rowsOf(plant).filter((row) => row.status === 'fine' && needsWork(row))
-                               .sort((a, b) => a.performance_factor - b.performance_factor).slice(0, 100);
+// What needs work goes first, then what passes and shows a cause; of each what loses most, then what performs worst.
+const needsInspection = (row) => row.zone.startsWith('pass') && row.cause !== 'none' && !kOfTheMeasurement.includes(row.cause_about);
+const worstOf = (plant) => rowsOf(plant).filter((row) => row.status === 'fine' && (needsWork(row) || needsInspection(row)))
+                               .sort((a, b) => needsWork(b) - needsWork(a) || (b.recoverable_power_W ?? 0) - (a.recoverable_power_W ?? 0) ||
+                                               a.performance_factor - b.performance_factor).slice(0, 100);
 
 let browser;
 before(async () => {
@@ -107,7 +110,7 @@ test('the table shows the rows, to five digits, and a dialog all cells of one', 
   await close();
 });
 
-test('verdict, zones and causes count the rows, and the worst are the worst of those that need work', async () => {
+test('verdict, zones and causes count the rows, and the worst are those that need work and lose most', async () => {
   const rows = rowsOf(500).filter((row) => row.status === 'fine');
   const {page: tab, close} = await openPlant(500);
   const passed = rows.filter((row) => row.zone.startsWith('pass')).length;

@@ -109,18 +109,17 @@ block::Table WithoutEmptyColumns(block::Table table) {
 
 block::Table WorstTable(const PlantSummary& summary, const std::string& results) {
   block::Table table = {
-      "llrrrlrllww",
-      {{"string", "to do", "lost (W)", "performance factor", "Pmax at STC (W)", "zone",
-        "power lost now (%)", "mostly by", "since", "what is seen", "what to do"}}};
+      "lrrrlrllw",
+      {{"string", "lost (W)", "performance factor", "Pmax at STC (W)", "zone", "power lost now (%)",
+        "mostly by", "since", "what is seen, and what to do"}}};
   table.caption = fmt::format("The {} worst strings, by {}", summary.worst.size(),
                               ColumnInWords(summary.worst_by));
   for (const PlantRow& row : summary.worst) {
     const bool judged = row.verdict.NeedsAVisit();
-    table.rows.push_back({row.id, judged ? std::string(ToText(row.verdict.to_do)) : "",
-                          Number(row.lost_W(), 0), Number(row.performance_factor, 3),
-                          Number(row.Pmax_stc_W, 0), row.verdict.zone,
+    table.rows.push_back({row.id, Number(row.lost_W(), 0), Number(row.performance_factor, 3),
+                          judged ? "" : Number(row.Pmax_stc_W, 0), row.verdict.zone,
                           Number(row.lost_now_percent, 2), row.largest_loss, row.onset_date,
-                          judged ? SeenOf(row.verdict) : "", row.verdict.cause.action});
+                          judged ? SeenAndToDo(row.verdict) : ""});
     table.links.push_back(LinkOf(row, results));
   }
   return WithoutEmptyColumns(std::move(table));

@@ -66,6 +66,17 @@ std::string Sentence(std::string text) {
   return FullSentence(std::move(text));
 }
 
+std::string SeenIn(const StringVerdict& verdict) {
+  const Cause& cause = verdict.cause;
+  if (cause.sentence.empty()) {
+    return verdict.outlier.empty() ? "No cause is named."
+                                   : Sentence("it differs from its neighbours: " + verdict.outlier);
+  }
+  if (cause.id.empty()) return Sentence(cause.sentence);
+  const std::string others = cause.equivalents.empty() ? "" : "; or " + InWords(cause.equivalents);
+  return Sentence(cause.title + others) + " " + Sentence(cause.sentence);
+}
+
 std::string ToDoIn(const StringVerdict& verdict) {
   const std::string what = "to do: " + std::string(ToText(verdict.to_do));
   const bool only = verdict.to_do == ToDo::kNothing || verdict.cause.action.empty();
@@ -196,15 +207,8 @@ std::vector<std::string> SentencesOf(const StringVerdict& verdict) {
   return sentences;
 }
 
-std::string SeenOf(const StringVerdict& verdict) {
-  const Cause& cause = verdict.cause;
-  if (cause.sentence.empty()) {
-    return verdict.outlier.empty() ? "No cause is named."
-                                   : Sentence("it differs from its neighbours: " + verdict.outlier);
-  }
-  if (cause.id.empty()) return Sentence(cause.sentence);
-  const std::string others = cause.equivalents.empty() ? "" : "; or " + InWords(cause.equivalents);
-  return Sentence(cause.title + others) + " " + Sentence(cause.sentence);
+std::string SeenAndToDo(const StringVerdict& verdict) {
+  return SeenIn(verdict) + " " + ToDoIn(verdict);
 }
 
 Expected<void> StringAddition::Open(const RowsInput& input) {
@@ -265,7 +269,7 @@ AddedReport StringAddition::Report() const {
   for (const Visit& visit : visits_) {
     table.rows.push_back({visit.id,
                           std::isfinite(visit.lost_W) ? fmt::format("{:.0f}", visit.lost_W) : "",
-                          SeenOf(visit.verdict) + " " + ToDoIn(visit.verdict)});
+                          SeenAndToDo(visit.verdict)});
   }
   if (!table.rows.empty()) AddTable(std::move(table), &section);
   report.sections = {CountsSection("What to do", "to do", to_do, rows_), std::move(section)};

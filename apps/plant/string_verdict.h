@@ -84,8 +84,8 @@ std::vector<ResultCell> StringCells(const StringVerdict& verdict);
 
 // The verdict as sentences: what it is and what shows it, what to do, what would tell more.
 std::vector<std::string> SentencesOf(const StringVerdict& verdict);
-// What is seen, for a table: the cause, what it may be as well, and the sentence.
-std::string SeenOf(const StringVerdict& verdict);
+// What is seen and what to do, for a table: the cause, what it may be as well, its sentence, the action.
+std::string SeenAndToDo(const StringVerdict& verdict);
 
 // Adds the verdict of each string to its row and to its page, if it has one, and lists in the report
 // the strings to visit first. It stands after all other additions, whose cells it reads.

@@ -95,8 +95,8 @@ const ColumnList<StringVerdict>& VerdictColumns() {
     ColumnList<StringVerdict> all = {
         {"string_to_do", "",
          "the verdict of the string, of its curve, its plan, its neighbours and its rating "
-         "together: "
-         "nothing, inspect (it passes and shows a fault), work, correct the plan, or measure again",
+         "together: nothing, inspect (it passes and shows a fault), work, correct the plan, or "
+         "measure again",
          [](Of of) { return ToText(of.to_do); }}};
     Append(
         CauseColumns<StringVerdict>(

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lyrefit/diagnose/effect_size.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/effects/fitted_effect.h"
 
 namespace lyrefit {
@@ -40,6 +42,40 @@ std::vector<std::string> LargestChange(const WeightedData& weighted, const LawFi
                       points[most].voltage * readings.scale.cells)};
 }
 
+// What is said of a parameter out of range beside its sentence.
+struct FindingWords {
+  const char* finding;
+  bool low;  // below its limit rather than above
+  const char* id;
+  const char* title;
+  const char* about;
+  const char* action;
+  const char* separate_by;
+};
+
+constexpr FindingWords kFindingWords[] = {
+    {"fill_factor", true, "fill_factor", "fill factor below that of healthy devices", "device",
+     "measure before any work: a Suns-Voc trace or a dark curve tells which part of the device "
+     "loses "
+     "it",
+     "a Suns-Voc trace or a dark curve"},
+    {"leak", false, "leak", "leak above that of healthy devices", "device",
+     "look for dark modules or cells in an electroluminescence image; test the insulation and the "
+     "earthing, since potential-induced degradation can be reversed; exchange what is shunted",
+     "an electroluminescence image, or a sweep at low light, where leaks take most of the voltage"},
+    {"ideality", false, "ideality", "ideality above that of healthy devices", "device",
+     "take the curve again with the temperature of the cells measured, and compare it with a sound "
+     "module of the same type",
+     "a second sweep at another light with the temperature of the cells measured"},
+    {"ideality", true, "low_ideality", "ideality below that of any junction", "conditions",
+     "check the stated number of cells and the sensor of the temperature; take the curve again",
+     "the number of cells on the label, and a second thermometer"},
+    {"series_resistance", false, "series_resistance",
+     "series resistance above that of healthy devices", "device",
+     "look for hot connectors, clamps and ribbons in a thermal picture under load; renew them",
+     "a Suns-Voc trace, or the voltage drop along leads and connectors under load"},
+};
+
 }  // namespace
 
 std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit, int index,
@@ -48,6 +84,45 @@ std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit
   if (effect.in_words == nullptr) return LargestChange(weighted, fit, index);
   return effect.in_words(
       {*weighted.readings, fit.law, fit.p, index, fit.p.data() + fit.law.Offset(index), strength});
+}
+
+Cause CauseOf(const DeviceFinding& finding) {
+  Cause cause;
+  const bool low = finding.value.value < finding.healthy_limit;
+  for (const FindingWords& words : kFindingWords) {
+    if (words.finding != finding.id || words.low != low) continue;
+    cause.id = words.id;
+    cause.title = words.title;
+    cause.group = words.about;
+    cause.action = words.action;
+    cause.separate_by = {words.separate_by};
+  }
+  cause.sentence = "it " + finding.sentence;
+  cause.power_effect.value = finding.power_loss;
+  cause.recoverable_power_W = finding.recoverable_power_W;
+  return cause;
+}
+
+Cause MainCause(const Diagnosis& diagnosis) {
+  const auto about = [](const Cause& cause) {
+    const Effect* const effect = FindEffect(cause.id);
+    return effect == nullptr ? std::string() : std::string(ToText(effect->where));
+  };
+  const std::vector<Cause>& causes = diagnosis.verdict.causes;
+  const auto of_device = std::find_if(causes.begin(), causes.end(), [&](const Cause& cause) {
+    return about(cause) == ToText(Where::kDevice);
+  });
+  // What the instrument does to single readings leaves the parameters what they are.
+  const bool undisturbed = std::all_of(causes.begin(), causes.end(), [&](const Cause& cause) {
+    return about(cause) == ToText(Where::kInstrument);
+  });
+  if (of_device == causes.end() && undisturbed && !diagnosis.device_findings.empty()) {
+    return CauseOf(diagnosis.device_findings.front());
+  }
+  if (causes.empty()) return Cause();
+  Cause cause = of_device == causes.end() ? causes.front() : *of_device;
+  cause.group = about(cause);
+  return cause;
 }
 
 }  // namespace lyrefit

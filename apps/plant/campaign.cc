@@ -9,7 +9,9 @@
 
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/base/median.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/batch/addition.h"
+#include "lyrefit/batch/sparkline.h"
 #include "plant/neighbours.h"
 
 namespace lyrefit {
@@ -18,36 +20,56 @@ namespace {
 constexpr int kTested = 4;  // Isc, Voc, FF, Pmax
 constexpr double kTwoSided = 2;
 constexpr double kLeastScatter = 1e-4;  // resolution of figures that are equal in most strings
-constexpr double kMostDegrees = 1e6;    // where Student's t is normal
+constexpr double kLeastCurrentScatter = 0.0016;  // resolution of a sparkline, twice
+constexpr double kMostVocScatter = 0.0075;
+constexpr double kMostDegrees = 1e6;  // where Student's t is normal
 
 using Changes = std::vector<CampaignChange>;
 using Indices = std::vector<std::int32_t>;
-using Ratios = std::array<double, kCampaignRatios>;
+using Ratios = std::array<double, kCampaignChanges>;
 
-// Logarithms of the ratios of one string in one campaign.
+// Currents of a sweep in parts of Isc; empty: unknown.
+std::vector<double> CurrentsOf(const CampaignString& string) {
+  std::vector<double> currents = ReadSparkline(string.sparkline);
+  if (currents.empty() || !(currents.front() > 0)) return {};
+  const double isc = currents.front();
+  for (double& current : currents) current /= isc;
+  return currents;
+}
+
+// Logarithms of the ratios of one string in one campaign, and its currents.
 Ratios LogRatiosOf(const CampaignString& string) {
   std::array<double, kCampaignKept> logs{};
   for (int q = 0; q < kCampaignKept; ++q) {
     logs[q] = string.values[q] > 0 ? std::log(double{string.values[q]}) : kUnknown;
   }
-  return {logs[kCIsc],
-          logs[kCVoc],
-          logs[kCFillFactor],
-          logs[kCPmax],
-          logs[kCImp] - logs[kCIsc],
-          logs[kCVmp] - logs[kCVoc],
-          logs[kCFillFactor]};
+  Ratios ratios = {logs[kCIsc],
+                   logs[kCVoc],
+                   logs[kCFillFactor],
+                   logs[kCPmax],
+                   logs[kCImp] - logs[kCIsc],
+                   logs[kCVmp] - logs[kCVoc],
+                   logs[kCFillFactor],
+                   logs[kCPmax] - logs[kCIsc]};
+  const std::vector<double> currents = CurrentsOf(string);
+  for (int k = 0; k < kSparklinePoints; ++k) {
+    ratios[kCurrents + k] = currents.empty() ? kUnknown : currents[k];
+  }
+  return ratios;
 }
 
 // Reported standard uncertainty of each change, if no error is common to both campaigns. Those of
-// the last three, in which light cancels, are that of the fill factor.
+// ratios in which light cancels are that of the fill factor, those of currents what one instrument
+// repeats.
 Ratios ReportedSigma(const CampaignString& before, const CampaignString& after) {
   Ratios sigma{};
   for (int q = 0; q <= kCPmax; ++q) {
     sigma[q] = 0.5 * std::hypot(before.expanded[q] / before.values[q],
                                 after.expanded[q] / after.values[q]);
   }
+  constexpr double kCurrentRepeats = 0.005;
   for (int q = kImpPerIsc; q < kCampaignRatios; ++q) sigma[q] = sigma[kCFillFactor];
+  std::fill(sigma.begin() + kCurrents, sigma.end(), kCurrentRepeats);
   return sigma;
 }
 
@@ -56,6 +78,15 @@ double MedianWithout(const std::vector<double>& sorted, std::size_t left_out) {
   const std::size_t count = sorted.size() - 1;
   const auto at = [&](std::size_t k) { return sorted[k < left_out ? k : k + 1]; };
   return count % 2 == 1 ? at(count / 2) : 0.5 * (at(count / 2 - 1) + at(count / 2));
+}
+
+// The mean of the middle half of sorted values without the one at `left_out`: currents are rounded
+// to 1/255, of which a median would be one again.
+double MiddleWithout(const std::vector<double>& sorted, std::size_t left_out) {
+  const std::size_t count = sorted.size() - 1, first = count / 4, last = count - count / 4;
+  double sum = 0;
+  for (std::size_t k = first; k < last; ++k) sum += sorted[k < left_out ? k : k + 1];
+  return sum / static_cast<double>(last - first);
 }
 
 std::vector<double> SortedOf(const std::vector<Ratios>& values, const Indices& members, int q) {
@@ -73,21 +104,28 @@ struct Compared {
   std::vector<Ratios> sigmas;   // reported
   std::map<std::string, Indices> groups;
   Indices all;
+  bool shapes = true;  // the currents of all sweeps are known
+
+  int changes() const { return shapes ? int{kCampaignChanges} : int{kCampaignRatios}; }
 };
 
-void SetOwn(const std::vector<Ratios>& raw, const Indices& members, CampaignReference reference,
+void SetOwn(const Compared& compared, const Indices& members, CampaignReference reference,
             const Indices& peers, Changes* changes) {
-  for (int q = 0; q < kCampaignRatios; ++q) {
+  const std::vector<Ratios>& raw = compared.raw;
+  for (int q = 0; q < compared.changes(); ++q) {
     const std::vector<double> sorted = SortedOf(raw, peers, q);
+    const auto middle = q < kCampaignRatios ? MedianWithout : MiddleWithout;
     for (const std::int32_t i : members) {
       const auto place = std::lower_bound(sorted.begin(), sorted.end(), raw[i][q]);
-      const double common =
-          reference == CampaignReference::kNothing
-              ? 0
-              : MedianWithout(sorted, static_cast<std::size_t>(place - sorted.begin()));
+      const double common = reference == CampaignReference::kNothing
+                                ? 0
+                                : middle(sorted, static_cast<std::size_t>(place - sorted.begin()));
       (*changes)[i].common[q] = static_cast<float>(common);
       (*changes)[i].own[q] = static_cast<float>(raw[i][q] - common);
       (*changes)[i].reference = reference;
+      (*changes)[i].peers = reference == CampaignReference::kNothing
+                                ? 0
+                                : static_cast<std::int32_t>(peers.size()) - 1;
     }
   }
 }
@@ -98,7 +136,8 @@ double ScatterOf(const Compared& compared, const Changes& changes, const Indices
   for (const std::int32_t i : members) {
     sizes.push_back(changes[i].own[q] / compared.weights[i][q]);
   }
-  return std::fmax(RobustScale(std::move(sizes)), kLeastScatter);
+  return std::fmax(RobustScale(std::move(sizes)),
+                   q < kCampaignRatios ? kLeastScatter : kLeastCurrentScatter);
 }
 
 // Own changes of strings that have one reference, and their scatter. `groups`: number of medians.
@@ -106,7 +145,7 @@ void SetScatter(const Compared& compared, const Indices& members, std::size_t gr
                 Changes* changes) {
   const double degrees =
       std::clamp(kMadEfficiency * static_cast<double>(members.size() - groups), 1.0, kMostDegrees);
-  for (int q = 0; q < kCampaignRatios; ++q) {
+  for (int q = 0; q < compared.changes(); ++q) {
     const double scatter = ScatterOf(compared, *changes, members, q);
     for (const std::int32_t i : members) {
       (*changes)[i].sigma[q] = static_cast<float>(scatter * compared.weights[i][q]);
@@ -119,11 +158,14 @@ void SetScatter(const Compared& compared, const Indices& members, std::size_t gr
 void WidenByGroup(const Compared& compared, const Indices& members, Changes* changes) {
   constexpr double kChance = 2;  // standard deviations
   const double spread = 1 / std::sqrt(2 * kMadEfficiency * static_cast<double>(members.size() - 1));
-  for (int q = 0; q < kCampaignRatios; ++q) {
+  for (int q = 0; q < compared.changes(); ++q) {
     const double own = ScatterOf(compared, *changes, members, q);
     for (const std::int32_t i : members) {
       float& sigma = (*changes)[i].sigma[q];
-      const auto wider = static_cast<float>(own * compared.weights[i][q]);
+      double wider_by = own * compared.weights[i][q];
+      // Strings of one combiner are warm alike to 2.5 K, which is as much of their Voc.
+      if (q == kCVoc) wider_by = std::min(wider_by, kMostVocScatter);
+      const auto wider = static_cast<float>(wider_by);
       if (wider > sigma * (1 + kChance * spread)) sigma = wider;
     }
   }
@@ -169,7 +211,7 @@ void AdjustFill(const Indices& members, Changes* changes) {
 }
 
 void SetWeights(Compared* compared) {
-  for (int q = 0; q < kCampaignRatios; ++q) {
+  for (int q = 0; q < kCampaignChanges; ++q) {
     std::vector<double> known;
     for (const std::int32_t i : compared->all) {
       if (compared->sigmas[i][q] > 0) known.push_back(compared->sigmas[i][q]);
@@ -204,8 +246,9 @@ void AddPair(const CampaignString& before, const CampaignString& after, std::siz
              CampaignChange* change, Compared* compared) {
   const Ratios now = LogRatiosOf(after), then = LogRatiosOf(before);
   bool known = true, known_then = true;
-  for (int q = 0; q < kCampaignRatios; ++q) {
+  for (int q = 0; q < kCampaignChanges; ++q) {
     compared->raw[k][q] = now[q] - then[q];
+    if (q >= kCampaignRatios) continue;
     known = known && std::isfinite(now[q]);
     known_then = known_then && std::isfinite(then[q]);
   }
@@ -214,6 +257,7 @@ void AddPair(const CampaignString& before, const CampaignString& after, std::siz
                             : "this sweep has no figures at standard conditions";
     return;
   }
+  compared->shapes = compared->shapes && std::isfinite(compared->raw[k][kCurrents]);
   compared->sigmas[k] = ReportedSigma(before, after);
   compared->groups[ParentOf(after.id)].push_back(static_cast<std::int32_t>(k));
   compared->all.push_back(static_cast<std::int32_t>(k));
@@ -296,7 +340,7 @@ void CompareInGroups(const Compared& compared, const std::vector<const Indices*>
                      Changes* changes) {
   Indices all;
   for (const Indices* members : groups) {
-    SetOwn(compared.raw, *members, CampaignReference::kGroup, *members, changes);
+    SetOwn(compared, *members, CampaignReference::kGroup, *members, changes);
     all.insert(all.end(), members->begin(), members->end());
   }
   if (all.empty()) return;
@@ -312,23 +356,92 @@ void CompareInPlant(const Compared& compared, const Indices& members, Changes* c
   if (members.empty()) return;
   if (static_cast<int>(compared.all.size()) > kLeastPeers) {
     Changes against = *changes;
-    SetOwn(compared.raw, compared.all, CampaignReference::kPlant, compared.all, &against);
+    SetOwn(compared, compared.all, CampaignReference::kPlant, compared.all, &against);
     SetScatter(compared, compared.all, 1, &against);
     AdjustFill(compared.all, &against);
     SetScatter(compared, compared.all, 1, &against);
     for (const std::int32_t i : members) (*changes)[i] = against[i];
     return;
   }
-  SetOwn(compared.raw, members, CampaignReference::kNothing, compared.all, changes);
+  SetOwn(compared, members, CampaignReference::kNothing, compared.all, changes);
   for (const std::int32_t i : members) {
-    for (int q = 0; q < kCampaignRatios; ++q) {
+    for (int q = 0; q < kCampaignChanges; ++q) {
       (*changes)[i].sigma[q] = static_cast<float>(compared.sigmas[i][q]);
     }
     (*changes)[i].degrees = kMostDegrees;
   }
 }
 
+// ln of what a figure at these conditions is of that at standard conditions, for a usual module of
+// crystalline silicon: only differences between neighbours are taken of it.
+double UsualLog(const CampaignString& string, int q) {
+  constexpr double kIscPerK = 0.0005, kVocPerK = -0.003, kPmaxPerK = -0.004;
+  constexpr double kVocPerLight = 0.045, kFillPerLight = -0.03;
+  const double light = std::log(string.irradiance_W_m2 / 1000.0);
+  const double warmer = string.temperature_C - 25.0;
+  const double isc = light + kIscPerK * warmer;
+  const double voc = kVocPerLight * light + std::log1p(kVocPerK * warmer);
+  const double fill = kFillPerLight * light + (kPmaxPerK - kVocPerK - kIscPerK) * warmer;
+  switch (q) {
+    case kCVoc:
+    case kCVmp:
+      return voc;
+    case kCFillFactor:
+      return fill;
+    case kCPmax:
+      return isc + voc + fill;
+    default:
+      return isc;
+  }
+}
+
+// How one figure of a string was carried, less what is usual at its conditions; NaN: unknown.
+double CarriedLog(const CampaignString& string, int q) {
+  return std::log(double{string.values[q]} / string.measured[q]) + UsualLog(string, q);
+}
+
 }  // namespace
+
+void CarryInOneWay(std::vector<CampaignString>* strings) {
+  std::map<std::string, int> ways;
+  for (const CampaignString& string : *strings) {
+    if (string.values[kCPmax] > 0) ++ways[string.procedure];
+  }
+  if (ways.size() < 2) return;
+  const auto most = std::max_element(
+      ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  struct Usual {
+    std::vector<double> logs[kCampaignKept], expanded[kCampaignKept];
+  };
+  std::map<std::string, Usual> groups;  // the plant has no name
+  for (const CampaignString& string : *strings) {
+    if (string.procedure != most->first || !std::isfinite(CarriedLog(string, kCPmax))) continue;
+    for (Usual* usual : {&groups[ParentOf(string.id)], &groups[""]}) {
+      for (int q = 0; q < kCampaignKept; ++q) {
+        usual->logs[q].push_back(CarriedLog(string, q));
+        usual->expanded[q].push_back(string.expanded[q] / string.values[q]);
+      }
+    }
+  }
+  for (CampaignString& string : *strings) {
+    if (string.procedure == most->first || !(string.irradiance_W_m2 > 0)) continue;
+    const auto own = groups.find(ParentOf(string.id));
+    const Usual& usual = own != groups.end() ? own->second : groups[""];
+    if (usual.logs[0].empty()) continue;
+    for (int q = 0; q < kCampaignKept; ++q) {
+      if (!(string.values[q] > 0) || !(string.measured[q] > 0)) continue;
+      const double log = Median(usual.logs[q]) - UsualLog(string, q);
+      string.values[q] = static_cast<float>(string.measured[q] * std::exp(log));
+      string.expanded[q] = static_cast<float>(string.values[q] * Median(usual.expanded[q]));
+    }
+  }
+}
+
+SweepFigures SweepOf(const CampaignString& string) {
+  return {std::log(double{string.values[kCIsc]}), std::log(double{string.values[kCVoc]}),
+          double{string.values[kCImp]} / string.values[kCIsc],
+          double{string.values[kCVmp]} / string.values[kCVoc], CurrentsOf(string)};
+}
 
 Campaign CompareCampaigns(const std::vector<CampaignString>& before,
                           const std::vector<CampaignString>& after, double level) {
@@ -338,6 +451,7 @@ Campaign CompareCampaigns(const std::vector<CampaignString>& before,
   Compared compared = PairById(before, after, &campaign);
   if (!compared.all.empty()) {
     SetWeights(&compared);
+    campaign.shapes = compared.shapes;
     campaign.plant = CommonOf(compared, "", compared.all);
     Indices others;
     std::vector<const Indices*> groups;

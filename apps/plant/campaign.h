@@ -5,16 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/batch/result_row.h"
+#include "plant/campaign_shape.h"
 #include "plant/campaign_summary.h"
 
 namespace lyrefit {
 
 // Comparison of a campaign with an earlier one: the same strings, one sweep each.
 //
-// The change of a figure is r = ln(later / earlier), both at standard conditions. Rating and
-// coefficients are common to both, so that their errors cancel. An error of a campaign or of a
+// The change of a figure is r = ln(later / earlier), both at standard conditions, to which all
+// sweeps of a campaign are carried in one way: the procedure of most of them. Where another one was
+// recommended, as for a sweep with a cause of its own, the measured figure is carried as those of
+// its group were. Rating and coefficients are common to both, so that their errors cancel. An error of a campaign or of a
 // combiner (a reference cell that drifted or was recalibrated, a sensor set up anew) shifts all
 // strings alike. The common change of a string is the median r of the others of its group, if at
 // least kLeastPeers are compared; else of the others of the plant. Its own change is d = r - median.
@@ -32,24 +36,42 @@ namespace lyrefit {
 // factor is d(FF) - a d(Isc) - b d(Voc), with a and b by least squares over the strings that did not
 // change. It takes the place of FF where Isc and Voc are within what is usual; its scatter is smaller.
 //
-// Power lost at standard conditions is P (1 - exp(d)), P of the earlier campaign and d the sum over
-// those of Isc, Voc and FF that changed. Voc and FF within what is usual count as unchanged, with half
-// their intervals. If no figure changed, d is that of Pmax.
+// What changed is the mechanism (campaign_shape.h) that makes the later sweep of the earlier one, or
+// the reverse for a gain; what all sweeps of the group share is taken off first. Several that the
+// sweeps do not tell apart are a set.
+//
+// Power lost at standard conditions is P (1 - exp(d)), P of the earlier campaign. d is the own change
+// of Pmax, or of Pmax / Isc where Isc is within what is usual: then its change is an error of the
+// light. A series resistance costs in proportion to the light and a shunt to its inverse, so that d
+// is scaled from the light of the sweep to 1000 W/m2. A temperature that was read wrong costs nothing.
 
 // Figures that are kept of a string: those of kCampaignFigures, and the maximum power point.
 enum CampaignFigure { kCIsc, kCVoc, kCFillFactor, kCPmax, kCImp, kCVmp, kCampaignKept };
 
-// Changes that are formed of them: Isc, Voc, FF, Pmax, Imp / Isc, Vmp / Voc, and FF adjusted.
-enum CampaignRatio { kImpPerIsc = 4, kVmpPerVoc, kAdjustedFill, kCampaignRatios };
+// Changes that are formed of them: Isc, Voc, FF, Pmax, Imp / Isc, Vmp / Voc, FF adjusted, and
+// Pmax / Isc. Differences of the currents of both sweeps, in parts of Isc, follow.
+enum CampaignRatio {
+  kImpPerIsc = 4,
+  kVmpPerVoc,
+  kAdjustedFill,
+  kPmaxPerIsc,
+  kCampaignRatios,
+  kCurrents = kCampaignRatios,
+  kCampaignChanges = kCurrents + kSparklinePoints
+};
 
-// A string in one campaign: about 150 bytes.
+// A string in one campaign: about 260 bytes.
 struct CampaignString {
   std::string id;
-  std::string cause;                            // of the diagnosis; empty: none
-  std::array<float, kCampaignKept> values{};    // NaN: unknown
-  std::array<float, kCampaignKept> expanded{};  // their uncertainties, k = 2
-  std::int32_t bypass_diodes = 0;               // 0: unknown
-  bool repeat = false;                          // light or conditions changed during the sweep
+  std::string cause;                             // of the diagnosis; empty: none
+  std::string procedure;                         // that carried it to standard conditions
+  std::array<float, kCampaignKept> values{};     // NaN: unknown
+  std::array<float, kCampaignKept> expanded{};   // their uncertainties, k = 2
+  std::array<float, kCampaignKept> measured{};   // as read; 0 or NaN: unknown
+  float irradiance_W_m2 = 0, temperature_C = 0;  // of the sweep; 0 W/m2: unknown
+  std::string sparkline;                         // currents of the sweep; empty: unknown
+  std::int32_t bypass_diodes = 0;                // 0: unknown
+  bool repeat = false;                           // light or conditions changed during the sweep
 };
 
 enum class CampaignKind {
@@ -58,16 +80,45 @@ enum class CampaignKind {
   kLight,
   kSubstrings,
   kVoltage,
+  kTemperature,
   kSeriesResistance,
+  kShunt,
+  kMismatch,
   kShuntOrMismatch,
   kFillFactor,
+  kOtherModules,
   kSeveral,
-  kPower,
   kMeasurement,
   kExchanged,
   kRenamed,
   kNew
 };
+
+template <>
+struct EnumTable<CampaignKind> {
+  static constexpr EnumText<CampaignKind> kRows[] = {
+      {CampaignKind::kNone, "none"},
+      {CampaignKind::kLight, "light"},
+      {CampaignKind::kSubstrings, "substrings"},
+      {CampaignKind::kVoltage, "voltage"},
+      {CampaignKind::kTemperature, "temperature"},
+      {CampaignKind::kSeriesResistance, "series_resistance"},
+      {CampaignKind::kShunt, "shunt"},
+      {CampaignKind::kMismatch, "mismatch"},
+      {CampaignKind::kShuntOrMismatch, "shunt_or_mismatch"},
+      {CampaignKind::kFillFactor, "fill_factor"},
+      {CampaignKind::kOtherModules, "other_modules"},
+      {CampaignKind::kSeveral, "several"},
+      {CampaignKind::kMeasurement, "measurement"},
+      {CampaignKind::kExchanged, "exchanged"},
+      {CampaignKind::kRenamed, "renamed"},
+      {CampaignKind::kNew, "new"}};
+};
+
+// The kind of a mechanism that is named alone.
+CampaignKind KindOf(Mechanism mechanism);
+// It is from this probability.
+inline constexpr double kSureOfMechanism = 0.8;
 
 // Reference of a string's own change.
 enum class CampaignReference { kNothing, kPlant, kGroup };
@@ -79,15 +130,16 @@ struct CampaignChange {
   std::int32_t before = -1;         // index of the string in the earlier campaign; -1: none
   std::vector<std::int32_t> maybe;  // strings of the later campaign it may be exchanged with
   std::int32_t partner = -1;  // exchanged: index in the later campaign; renamed: in the earlier
-  // Substrings that are missing (> 0) or came back (< 0): the whole numbers in the interval.
-  std::int32_t steps_low = 0, steps_high = 0;
-  std::int32_t rank = 0;                        // 1: the largest loss; 0: not changed
-  std::array<float, kCampaignRatios> common{};  // common change
-  std::array<float, kCampaignRatios> own{};     // own change
-  std::array<float, kCampaignRatios> sigma{};   // scatter of the own change
-  double degrees = 0;                           // of freedom of the scatter
-  double t95 = kUnknown;  // Student's t of the intervals: half-width over sigma
-  bool adjusted = false;  // the fill factor is judged by the adjusted one
+  std::vector<MechanismFit> fits;  // what makes one sweep of the other, the most probable first
+  bool gain = false;               // the mechanisms were there before
+  std::int32_t rank = 0;           // 1: the largest loss; 0: not changed
+  std::array<float, kCampaignChanges> common{};  // common change
+  std::array<float, kCampaignChanges> own{};     // own change
+  std::array<float, kCampaignChanges> sigma{};   // scatter of the own change
+  std::int32_t peers = 0;  // strings whose median is the common change; 0: there is none
+  double degrees = 0;      // of freedom of the scatter
+  double t95 = kUnknown;   // Student's t of the intervals: half-width over sigma
+  bool adjusted = false;   // the fill factor is judged by the adjusted one
   double lost_W = kUnknown, lost_low_W = kUnknown, lost_high_W = kUnknown;
   std::string why_not;  // reason if it is not compared
 };
@@ -101,6 +153,7 @@ struct CampaignGroup {
 
 struct Campaign {
   double level = 0;
+  bool shapes = false;                  // the currents of all sweeps are known
   std::vector<CampaignChange> changes;  // one for each later string
   CampaignGroup plant;
   std::vector<CampaignGroup> groups;
@@ -110,9 +163,15 @@ struct Campaign {
 };
 
 // Compares two campaigns. `level`: see above. The result does not depend on the order of `before`,
-// except for its indices.
+// except for its indices. The figures of both have to be carried in one way.
 Campaign CompareCampaigns(const std::vector<CampaignString>& before,
                           const std::vector<CampaignString>& after, double level);
+
+// Carries the figures of all strings of a campaign to standard conditions in one way (see above).
+void CarryInOneWay(std::vector<CampaignString>* strings);
+
+// The sweep of a string for the mechanisms.
+SweepFigures SweepOf(const CampaignString& string);
 
 // campaign_columns.cc: the columns, the cells of one string, and the summary.
 std::vector<ResultColumn> CampaignColumns();

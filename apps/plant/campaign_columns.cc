@@ -8,28 +8,11 @@
 
 #include "lyrefit/base/append.h"
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/batch/cause_columns.h"
 #include "lyrefit/batch/column.h"
 #include "plant/campaign_words.h"
 
 namespace lyrefit {
-
-template <>
-struct EnumTable<CampaignKind> {
-  static constexpr EnumText<CampaignKind> kRows[] = {
-      {CampaignKind::kNone, "none"},
-      {CampaignKind::kLight, "light"},
-      {CampaignKind::kSubstrings, "substrings"},
-      {CampaignKind::kVoltage, "voltage"},
-      {CampaignKind::kSeriesResistance, "series_resistance"},
-      {CampaignKind::kShuntOrMismatch, "shunt_or_mismatch"},
-      {CampaignKind::kFillFactor, "fill_factor"},
-      {CampaignKind::kSeveral, "several"},
-      {CampaignKind::kPower, "power"},
-      {CampaignKind::kMeasurement, "measurement"},
-      {CampaignKind::kExchanged, "exchanged"},
-      {CampaignKind::kRenamed, "renamed"},
-      {CampaignKind::kNew, "new"}};
-};
 
 template <>
 struct EnumTable<CampaignReference> {
@@ -54,7 +37,7 @@ CommonChange CommonChangeOf(const CampaignGroup& group) {
 
 struct CampaignRow {
   const CampaignChange& change;
-  ChangeTexts texts;
+  Cause cause;
   std::string partner;  // its id
 
   // The own change of a ratio in percent.
@@ -74,14 +57,16 @@ ColumnList<CampaignRow> ChangeColumns() {
        "changed",
        [](Of of) { return of.change.rank > 0 ? std::optional(of.change.rank) : std::nullopt; }},
       {"change_kind", "",
-       "what changed: none, light, substrings, voltage, series_resistance, shunt_or_mismatch, "
-       "fill_factor, several, power, measurement, exchanged, renamed, new; none at all: not "
-       "compared",
-       [](Of of) {
-         return of.change.kind == CampaignKind::kNotCompared ? "" : ToText(of.change.kind);
-       }},
-      {"change_candidates", "", "ids of what it may be; the sweeps do not tell them apart",
-       [](Of of) { return of.texts.candidates; }},
+       "what changed: none, light, substrings, temperature, series_resistance, shunt, mismatch, "
+       "other_modules, "
+       "measurement, exchanged, renamed, new; of several that the sweeps do not tell apart: "
+       "voltage, "
+       "shunt_or_mismatch, fill_factor, several; none at all: not compared",
+       [](Of of) { return of.cause.id; }},
+      {"change_candidates", "", "ids of what it may be, the most probable first",
+       [](Of of) { return ListCell(of.cause.equivalents, " "); }},
+      {"change_probability", "", "of the most probable mechanism against the others",
+       [](Of of) { return of.cause.probability; }},
       {"change_partner", "", "the string it was exchanged with, or its earlier name",
        &CampaignRow::partner},
   };
@@ -90,7 +75,8 @@ ColumnList<CampaignRow> ChangeColumns() {
       "power at standard conditions that was lost since the earlier campaign, less what its group "
       "has in common; negative: gained",
       [](Of of) {
-        return Ranged{of.change.lost_W, of.change.lost_low_W, of.change.lost_high_W};
+        const Sized& lost = of.cause.recoverable_power_W;
+        return Ranged{lost.value, lost.low_95, lost.high_95};
       },
       &columns);
   const int figures = static_cast<int>(kCampaignFigures.size());
@@ -121,9 +107,9 @@ ColumnList<CampaignRow> ChangeColumns() {
   Append({{"change_against", "", "whose median is the common change: group, plant, or nothing",
            [](Of of) { return HasChange(of.change) ? ToText(of.change.reference) : ""; }},
           {"change_sentence", "", "the change in one sentence",
-           [](Of of) { return of.texts.sentence; }},
+           [](Of of) { return of.cause.sentence; }},
           {"change_action", "", "the next thing to do about it",
-           [](Of of) { return of.texts.action; }}},
+           [](Of of) { return of.cause.action; }}},
          &columns);
   return columns;
 }
@@ -139,7 +125,7 @@ std::vector<ResultCell> CampaignCells(const Campaign& campaign,
   const CampaignChange& change = campaign.changes[i];
   const std::vector<CampaignString>& partners =
       change.kind == CampaignKind::kRenamed ? before : after;
-  return CellsOf(columns, CampaignRow{change, TextsOf(campaign, before, after, i),
+  return CellsOf(columns, CampaignRow{change, CauseOf(campaign, before, after, i),
                                       change.partner < 0 ? "" : partners[change.partner].id});
 }
 
@@ -170,14 +156,12 @@ CampaignSummary SummariseCampaign(const Campaign& campaign,
     }
     const bool listed = change.kind == CampaignKind::kRenamed || change.rank > 0;
     if (!listed || change.rank > static_cast<std::int32_t>(kMostChanges)) continue;
-    const ChangeTexts texts = TextsOf(campaign, before, after, i);
     const auto percent = [&](int q) {
       return HasChange(change) ? Percent(change.own[q]) : kUnknown;
     };
-    summary.changes.push_back({change.rank, after[i].id, ToText(change.kind), texts.sentence,
-                               texts.candidates, texts.action, percent(kCIsc), percent(kCVoc),
-                               percent(change.adjusted ? int{kAdjustedFill} : int{kCFillFactor}),
-                               change.lost_W, change.lost_low_W, change.lost_high_W});
+    summary.changes.push_back({change.rank, after[i].id, CauseOf(campaign, before, after, i),
+                               percent(kCIsc), percent(kCVoc),
+                               percent(change.adjusted ? int{kAdjustedFill} : int{kCFillFactor})});
   }
   std::stable_sort(summary.changes.begin(), summary.changes.end(),
                    [](const StringChange& one, const StringChange& other) {

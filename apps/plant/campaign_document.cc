@@ -66,23 +66,23 @@ block::Table ChangesTable(const CampaignSummary& summary, std::size_t most) {
   };
   for (std::size_t k = 0; k < shown; ++k) {
     const StringChange& change = summary.changes[k];
-    const bool watts = std::isfinite(change.lost_W);
+    const Sized& lost = change.cause.recoverable_power_W;
     table.rows.push_back({change.rank > 0 ? std::to_string(change.rank) : "", change.id,
-                          watts ? fmt::format("{} [{}, {}]", Watts(change.lost_W),
-                                              Watts(change.lost_low_W), Watts(change.lost_high_W))
-                                : "",
+                          std::isfinite(lost.value)
+                              ? fmt::format("{} [{}, {}]", Watts(lost.value), Watts(lost.low_95),
+                                            Watts(lost.high_95))
+                              : "",
                           percent(change.isc_percent), percent(change.voc_percent),
-                          percent(change.ff_percent), change.kind});
+                          percent(change.ff_percent), change.cause.id});
   }
   return table;
 }
 
-// "soiling, shading or sensor_offset" of "soiling shading sensor_offset".
-std::string AnyOf(const std::string& words) {
+// "soiling, shading or sensor_offset".
+std::string AnyOf(const std::vector<std::string>& ids) {
   std::string text;
-  const std::size_t last = words.rfind(' ');
-  for (std::size_t at = 0; at < words.size(); ++at) {
-    text += words[at] != ' ' ? std::string(1, words[at]) : at == last ? " or " : ", ";
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    text += (k == 0 ? "" : k + 1 == ids.size() ? " or " : ", ") + ids[k];
   }
   return text;
 }
@@ -91,8 +91,8 @@ std::string AnyOf(const std::string& words) {
 block::Table ActionsTable(const CampaignSummary& summary) {
   std::vector<std::pair<std::string, std::vector<std::string>>> actions;
   for (const StringChange& change : summary.changes) {
-    if (change.action.empty()) continue;
-    const std::string what = AnyOf(change.candidates) + ". " + change.action;
+    if (change.cause.action.empty()) continue;
+    const std::string what = AnyOf(change.cause.equivalents) + ". " + change.cause.action;
     const auto same = std::find_if(actions.begin(), actions.end(),
                                    [&](const auto& one) { return one.first == what; });
     const auto place = static_cast<std::size_t>(same - actions.begin());
@@ -189,18 +189,19 @@ block::Figure CampaignFigureOf(const CampaignSummary& summary) {
   intervals.look.colour = "#000000";
   shown.readings = {"lrrr", {{"string", "W lost", "low", "high"}}};
   for (const StringChange& change : summary.changes) {
-    if (!std::isfinite(change.lost_W) || bars.rows.size() == kFigureStrings) continue;
+    const Sized& lost = change.cause.recoverable_power_W;
+    if (!std::isfinite(lost.value) || bars.rows.size() == kFigureStrings) continue;
     const auto x = static_cast<double>(bars.rows.size());
-    bars.Add(x, change.lost_W);
+    bars.Add(x, lost.value);
     bars.texts.push_back(
-        fmt::format("{}: {} W lost, {}", change.id, Watts(change.lost_W), change.kind));
+        fmt::format("{}: {} W lost, {}", change.id, Watts(lost.value), change.cause.id));
     bars.filters.push_back({"=" + change.id});
-    intervals.Add(x, change.lost_low_W);
-    intervals.Add(x, change.lost_high_W);
+    intervals.Add(x, lost.low_95);
+    intervals.Add(x, lost.high_95);
     intervals.EndLine();
     panel.x.ticks.push_back({std::to_string(change.rank), x});
     shown.readings.rows.push_back(
-        {change.id, Watts(change.lost_W), Watts(change.lost_low_W), Watts(change.lost_high_W)});
+        {change.id, Watts(lost.value), Watts(lost.low_95), Watts(lost.high_95)});
   }
   if (bars.rows.empty()) return shown;
   panel.x.low = -0.6;

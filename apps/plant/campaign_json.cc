@@ -1,7 +1,11 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "plant/campaign_results.h"
+#include "plant/campaign_words.h"
 
 namespace lyrefit {
 namespace {
@@ -43,33 +47,39 @@ CommonChange CommonOf(const CampaignRecord& json) {
 }
 
 CampaignRecord ChangeJson(const StringChange& change) {
+  const Cause& cause = change.cause;
+  const Sized& lost = cause.recoverable_power_W;
   return {{"rank", change.rank},
           {"id", change.id},
-          {"kind", change.kind},
-          {"candidates", change.candidates},
+          {"kind", cause.id},
+          {"candidates", fmt::format("{}", fmt::join(cause.equivalents, " "))},
+          {"probability", Finite(cause.probability)},
           {"Isc_percent", Finite(change.isc_percent)},
           {"Voc_percent", Finite(change.voc_percent)},
           {"FF_percent", Finite(change.ff_percent)},
-          {"lost_W", Finite(change.lost_W)},
-          {"lost_W_low_95", Finite(change.lost_low_W)},
-          {"lost_W_high_95", Finite(change.lost_high_W)},
-          {"sentence", change.sentence},
-          {"action", change.action}};
+          {"lost_W", Finite(lost.value)},
+          {"lost_W_low_95", Finite(lost.low_95)},
+          {"lost_W_high_95", Finite(lost.high_95)},
+          {"sentence", cause.sentence},
+          {"action", cause.action}};
 }
 
 StringChange ChangeOf(const CampaignRecord& json) {
-  return {json.value("rank", std::int64_t{0}),
-          json.value("id", ""),
-          json.value("kind", ""),
-          json.value("sentence", ""),
-          json.value("candidates", ""),
-          json.value("action", ""),
-          NumberAt(json, "Isc_percent"),
-          NumberAt(json, "Voc_percent"),
-          NumberAt(json, "FF_percent"),
-          NumberAt(json, "lost_W"),
-          NumberAt(json, "lost_W_low_95"),
-          NumberAt(json, "lost_W_high_95")};
+  StringChange change;
+  change.rank = json.value("rank", std::int64_t{0});
+  change.id = json.value("id", "");
+  Cause& cause = change.cause;
+  cause.id = json.value("kind", "");
+  cause.equivalents = IdsIn(json.value("candidates", ""));
+  cause.probability = NumberAt(json, "probability");
+  cause.recoverable_power_W = {NumberAt(json, "lost_W"), NumberAt(json, "lost_W_low_95"),
+                               NumberAt(json, "lost_W_high_95")};
+  cause.sentence = json.value("sentence", "");
+  cause.action = json.value("action", "");
+  change.isc_percent = NumberAt(json, "Isc_percent");
+  change.voc_percent = NumberAt(json, "Voc_percent");
+  change.ff_percent = NumberAt(json, "FF_percent");
+  return change;
 }
 
 }  // namespace

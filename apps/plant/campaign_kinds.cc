@@ -15,14 +15,11 @@ constexpr double kSides = 2;
 // What less light alone does at standard conditions that are reached with a wrong irradiance, per
 // ln(Isc): Voc falls by n k T / q of about 0.9 V of 40 V and less, FF rises by the part of the
 // power that the series resistance takes.
-constexpr double kVocPerLight = 0.045;
+constexpr double kLessVocPerLight = 0.045;
 constexpr double kFillPerLight = -0.06;
-// Change of ln(Voc) that a wrong temperature may look like: 6 K. More is missing or added cells.
-constexpr double kVocByTemperature = 0.018;
-// A loss of FF is by resistance if less than this part of it is in Imp / Isc: added resistance
-// moves Vmp, added shunt conductance and mismatch of currents move Imp.
-constexpr double kCurrentPart = 0.5;
-constexpr const char kResistanceCause[] = "series_resistance";
+
+// What no mechanism explains better than this is several at once, or another.
+constexpr double kLeastGoodness = 1e-6;
 
 // Half-widths of intervals of a string's own changes.
 struct Halves {
@@ -32,88 +29,128 @@ struct Halves {
       limit[q] = t_level * change.sigma[q];
     }
   }
+  bool Beyond(int q, double value) const { return std::fabs(value) > limit[q]; }
+
   std::array<double, kCampaignRatios> half{};   // 95 %
   std::array<double, kCampaignRatios> limit{};  // of what is usual
 };
 
-// Sets the numbers of substrings that the change of Voc may mean. False: none, or a wrong
-// temperature may be the cause too.
-bool FindSteps(double voc, double half, int substrings, CampaignChange* change) {
-  if (substrings < 2 || std::fabs(voc) - half < kVocByTemperature) return false;
-  const double most = substrings * (1 - std::exp(voc - half));
-  const double least = substrings * (1 - std::exp(voc + half));
-  change->steps_low = static_cast<std::int32_t>(std::ceil(least));
-  change->steps_high = static_cast<std::int32_t>(std::floor(most));
-  if (change->steps_low <= change->steps_high) return true;
-  change->steps_low = change->steps_high = 0;
-  return false;
-}
-
-CampaignKind FillFactorKind(const CampaignChange& change, const Halves& of, bool new_cause,
-                            const std::string& cause) {
-  if (new_cause) {
-    return cause == kResistanceCause ? CampaignKind::kSeriesResistance
-                                     : CampaignKind::kShuntOrMismatch;
-  }
-  const double fill = change.own[kCFillFactor];
-  if (std::fabs(fill) < of.half[kCFillFactor]) return CampaignKind::kFillFactor;
-  const double part = change.own[kImpPerIsc] / fill;
-  const double half = of.half[kImpPerIsc] / std::fabs(fill);
-  if (part + half < kCurrentPart) return CampaignKind::kSeriesResistance;
-  if (part - half > kCurrentPart) return CampaignKind::kShuntOrMismatch;
-  return CampaignKind::kFillFactor;
-}
-
-CampaignKind KindOf(const CampaignString& before, const CampaignString& after, const Halves& of,
-                    CampaignChange* change) {
+// Whether any figure changed by more than is usual.
+bool HasChanged(const Halves& of, CampaignChange* change) {
   const auto& own = change->own;
-  const auto beyond = [&](int q, double value) { return std::fabs(value) > of.limit[q]; };
-  const bool isc = beyond(kCIsc, own[kCIsc]);
+  const bool isc = of.Beyond(kCIsc, own[kCIsc]);
   const double light = isc ? own[kCIsc] : 0;
-  const double voc_left = own[kCVoc] - kVocPerLight * light;
+  const double voc_left = own[kCVoc] - kLessVocPerLight * light;
   const double fill_left = own[kCFillFactor] - kFillPerLight * light;
-  const bool voc = beyond(kCVoc, own[kCVoc]) && beyond(kCVoc, voc_left);
-  change->adjusted = !isc && !beyond(kCVoc, own[kCVoc]);
-  const bool fill =
-      change->adjusted ? beyond(kAdjustedFill, own[kAdjustedFill])
-                       : beyond(kCFillFactor, own[kCFillFactor]) && beyond(kCFillFactor, fill_left);
-  if (!isc && !voc && !fill && !beyond(kCPmax, own[kCPmax])) return CampaignKind::kNone;
-  if (before.repeat || after.repeat) return CampaignKind::kMeasurement;
-  const bool new_cause = !after.cause.empty() && after.cause != before.cause;
-  const bool steps = voc && FindSteps(voc_left, of.half[kCVoc], after.bypass_diodes, change);
-  if (steps && !isc && !fill) return CampaignKind::kSubstrings;
-  if (isc && !voc && !fill) return CampaignKind::kLight;
-  const bool mostly_fill = !voc || std::fabs(own[kCVoc]) < 0.5 * std::fabs(own[kCFillFactor]);
-  if (fill && !isc && mostly_fill) return FillFactorKind(*change, of, new_cause, after.cause);
-  if (voc && !isc && !fill) return CampaignKind::kVoltage;
-  return voc || fill ? CampaignKind::kSeveral : CampaignKind::kPower;
+  const bool voc = of.Beyond(kCVoc, own[kCVoc]) && of.Beyond(kCVoc, voc_left);
+  change->adjusted = !isc && !of.Beyond(kCVoc, own[kCVoc]);
+  const bool fill = change->adjusted ? of.Beyond(kAdjustedFill, own[kAdjustedFill])
+                                     : of.Beyond(kCFillFactor, own[kCFillFactor]) &&
+                                           of.Beyond(kCFillFactor, fill_left);
+  return isc || voc || fill || of.Beyond(kCPmax, own[kCPmax]);
 }
 
-// Power lost by the figures that changed; by Pmax if none did. Voc and FF within what is usual count
-// as unchanged, give or take this part of their intervals.
-constexpr double kUnchangedPart = 0.5;
+// The change that power is judged by: of Pmax, or of Pmax / Isc where that of Isc is an error of
+// light. A series resistance changes nothing but the fill factor.
+int PowerOf(const CampaignChange& change, const Halves& of) {
+  if (change.kind == CampaignKind::kLight || change.kind == CampaignKind::kOtherModules) {
+    return kCPmax;
+  }
+  if (change.kind == CampaignKind::kSeriesResistance) {
+    return change.adjusted ? int{kAdjustedFill} : int{kCFillFactor};
+  }
+  return of.Beyond(kCIsc, change.own[kCIsc]) ? int{kCPmax} : int{kPmaxPerIsc};
+}
 
-void SetLost(const CampaignString& before, const Halves& of, CampaignChange* change) {
-  double own = 0, squares = 0;
-  bool changed = false;
-  const int fill = change->adjusted ? int{kAdjustedFill} : int{kCFillFactor};
-  for (const int q : {int{kCIsc}, int{kCVoc}, fill}) {
-    if (std::fabs(change->own[q]) > of.limit[q]) {
-      changed = true;
-      own += change->own[q];
-      squares += of.half[q] * of.half[q];
-    } else if (q != kCIsc) {
-      squares += std::pow(kUnchangedPart * of.half[q], 2);
-    }
+// What all sweeps share, taken off the earlier one.
+SweepFigures WithCommon(SweepFigures sweep, const CampaignChange& change) {
+  sweep.log_isc += change.common[kCIsc];
+  sweep.log_voc += change.common[kCVoc];
+  sweep.imp_per_isc *= std::exp(change.common[kImpPerIsc]);
+  sweep.vmp_per_voc *= std::exp(change.common[kVmpPerVoc]);
+  for (std::size_t k = 0; k < sweep.currents.size(); ++k) {
+    sweep.currents[k] += change.common[kCurrents + k];
   }
-  if (!changed) {
-    own = change->own[kCPmax];
-    squares = of.half[kCPmax] * of.half[kCPmax];
+  return sweep;
+}
+
+// Finds what makes the later sweep of the earlier one, or the reverse.
+void FindMechanisms(const CampaignString& before, const CampaignString& after, bool shapes,
+                    const Halves& of, CampaignChange* change) {
+  SweepFigures earlier = WithCommon(SweepOf(before), *change), later = SweepOf(after);
+  if (!shapes) earlier.currents.clear(), later.currents.clear();
+  SweepScatter scatter = {change->sigma[kCIsc], change->sigma[kCVoc], change->sigma[kCFillFactor],
+                          change->sigma[kImpPerIsc], change->sigma[kVmpPerVoc]};
+  for (int k = 0; k < kSparklinePoints; ++k) scatter.currents[k] = change->sigma[kCurrents + k];
+  const StringFacts facts = {after.bypass_diodes, before.values[kCVoc]};
+  // Power tells losses and gains apart where it can, else the better fit.
+  const int q = PowerOf(*change, of);
+  const double power = std::fabs(change->own[q]) > of.half[q] ? change->own[q] : 0;
+  std::vector<MechanismFit> losses, gains;
+  if (power <= 0) losses = FitMechanisms(earlier, later, scatter, facts);
+  if (power >= 0) gains = FitMechanisms(later, earlier, scatter, facts);
+  change->gain = losses.empty() || (!gains.empty() && gains.front().misfit < losses.front().misfit);
+  change->fits = std::move(change->gain ? gains : losses);
+}
+
+// The kind of the mechanisms that are likely: of one, or of a set that has a name.
+CampaignKind KindOf(const CampaignChange& change) {
+  std::array<double, kMechanisms> of{};
+  for (const MechanismFit& fit : change.fits) of[static_cast<int>(fit.mechanism)] = fit.probability;
+  const auto at = [&](Mechanism one) { return of[static_cast<int>(one)]; };
+  if (change.fits.front().goodness < kLeastGoodness) return CampaignKind::kSeveral;
+  if (change.fits.front().probability >= kSureOfMechanism)
+    return KindOf(change.fits.front().mechanism);
+  if (at(Mechanism::kSubstrings) + at(Mechanism::kTemperature) >= kSureOfMechanism) {
+    return CampaignKind::kVoltage;
   }
-  const double power_W = before.values[kCPmax], half = std::sqrt(squares);
-  change->lost_W = power_W * -std::expm1(own);
-  change->lost_low_W = power_W * -std::expm1(own + half);
-  change->lost_high_W = power_W * -std::expm1(own - half);
+  const double leaks = at(Mechanism::kShunt) + at(Mechanism::kMismatch);
+  if (leaks >= kSureOfMechanism) return CampaignKind::kShuntOrMismatch;
+  return leaks + at(Mechanism::kSeriesResistance) >= kSureOfMechanism ? CampaignKind::kFillFactor
+                                                                      : CampaignKind::kSeveral;
+}
+
+// How much more, or less, a mechanism costs at standard conditions than at those of a sweep: between
+// two factors. A series resistance takes I Rs of Vmp. A leak takes a current in proportion to the
+// voltage, or, where cells break through, to a high power of it.
+struct Factors {
+  double low = 1, high = 1;
+};
+Factors AtStandardConditions(Mechanism mechanism, const CampaignString& sweep) {
+  constexpr double kVmpPerK = -0.0042;
+  constexpr double kSteepestLeak = 4;
+  if (!(sweep.irradiance_W_m2 > 0)) return {};
+  const double light = sweep.irradiance_W_m2 / 1000;
+  const double warmer = std::isfinite(sweep.temperature_C) ? sweep.temperature_C - 25.0 : 0;
+  const double vmp = 1 + kVmpPerK * warmer;  // of that at 25 C
+  if (mechanism == Mechanism::kSeriesResistance) return {vmp / light, vmp / light};
+  if (mechanism != Mechanism::kShunt) return {};
+  const double ohmic = light / vmp, steepest = light * std::pow(vmp, -kSteepestLeak);
+  return {std::min(ohmic, steepest), std::max(ohmic, steepest)};
+}
+
+void SetLost(const CampaignString& before, const CampaignString& after, const Halves& of,
+             CampaignChange* change) {
+  const int q = change->fits.empty() ? int{kCPmax} : PowerOf(*change, of);
+  const Factors at = change->fits.empty() ? Factors()
+                                          : AtStandardConditions(change->fits.front().mechanism,
+                                                                 change->gain ? before : after);
+  const double measured = change->kind == CampaignKind::kTemperature ? 0 : change->own[q];
+  const double own = 0.5 * (at.low + at.high) * measured;
+  // The common change is a median, of which the variance is pi / 2 of that of a mean.
+  constexpr double kOfMedian = 1.5708;
+  // What a resistance takes is known to a fifth: its place and the light at it are not.
+  constexpr double kOfResistance = 0.2;
+  const double of_size =
+      change->kind == CampaignKind::kSeriesResistance ? kOfResistance : 0.5 * (at.high - at.low);
+  const double half =
+      of.half[q] * std::sqrt(1 + (change->peers > 0 ? kOfMedian / change->peers : 0)) +
+      of_size * std::fabs(measured);
+  const double power_W = before.values[kCPmax];
+  const auto lost = [&](double change_of_log) { return 0 - power_W * std::expm1(change_of_log); };
+  change->lost_W = lost(own);
+  change->lost_low_W = lost(own + half);
+  change->lost_high_W = lost(own - half);
 }
 
 bool IsNamed(CampaignKind kind) {
@@ -137,6 +174,26 @@ void SetRanks(const std::vector<CampaignString>& after, Campaign* campaign) {
 
 }  // namespace
 
+CampaignKind KindOf(Mechanism mechanism) {
+  switch (mechanism) {
+    case Mechanism::kLight:
+      return CampaignKind::kLight;
+    case Mechanism::kSubstrings:
+      return CampaignKind::kSubstrings;
+    case Mechanism::kTemperature:
+      return CampaignKind::kTemperature;
+    case Mechanism::kSeriesResistance:
+      return CampaignKind::kSeriesResistance;
+    case Mechanism::kShunt:
+      return CampaignKind::kShunt;
+    case Mechanism::kMismatch:
+      return CampaignKind::kMismatch;
+    case Mechanism::kOtherModules:
+      break;
+  }
+  return CampaignKind::kOtherModules;
+}
+
 void DecideKinds(const std::vector<CampaignString>& before,
                  const std::vector<CampaignString>& after, std::size_t compared,
                  Campaign* campaign) {
@@ -153,8 +210,16 @@ void DecideKinds(const std::vector<CampaignString>& before,
     }
     change.t95 = t95;
     const Halves of(change, t95, t_level);
-    change.kind = KindOf(before[change.before], after[i], of, &change);
-    SetLost(before[change.before], of, &change);
+    const CampaignString& earlier = before[change.before];
+    if (!HasChanged(of, &change)) {
+      change.kind = CampaignKind::kNone;
+    } else if (earlier.repeat || after[i].repeat) {
+      change.kind = CampaignKind::kMeasurement;
+    } else {
+      FindMechanisms(earlier, after[i], campaign->shapes, of, &change);
+      change.kind = change.fits.empty() ? CampaignKind::kNone : KindOf(change);
+    }
+    SetLost(earlier, after[i], of, &change);
   }
   FindExchanged(before, after, campaign);
   SetRanks(after, campaign);

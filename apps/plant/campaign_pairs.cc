@@ -71,12 +71,26 @@ std::vector<std::int32_t> LikelyOf(Partners partners) {
   return likely;
 }
 
+// One mechanism explains the change.
+bool HasName(const CampaignChange& change) {
+  switch (change.kind) {
+    case CampaignKind::kSeveral:
+    case CampaignKind::kFillFactor:
+    case CampaignKind::kOtherModules:
+      return false;
+    default:
+      return true;
+  }
+}
+
 // Strings that differ from their own past in more than the light of their place.
 bool MayBeExchanged(const CampaignChange& change) {
   switch (change.kind) {
     case CampaignKind::kSubstrings:
     case CampaignKind::kVoltage:
     case CampaignKind::kSeriesResistance:
+    case CampaignKind::kShunt:
+    case CampaignKind::kMismatch:
     case CampaignKind::kShuntOrMismatch:
     case CampaignKind::kFillFactor:
     case CampaignKind::kSeveral:
@@ -136,6 +150,7 @@ void FindExchanged(const std::vector<CampaignString>& before,
   for (std::size_t a = 0; a < changed.size(); ++a) {
     for (std::size_t b = a + 1; b < changed.size(); ++b) {
       const std::int32_t i = changed[a], j = changed[b];
+      if (ParentOf(after[i].id) != ParentOf(after[j].id)) continue;  // cables end in one combiner
       const Place at = BetweenOf(changes[i], changes[j], kWiderAcross);
       const double crossed = Misfit(before[changes[j].before], after[i], at) +
                              Misfit(before[changes[i].before], after[j], at);
@@ -150,6 +165,8 @@ void FindExchanged(const std::vector<CampaignString>& before,
   for (const auto& [i, found] : partners) {
     const std::vector<std::int32_t> likely = LikelyOf(found);
     if (likely.size() != 1 || LikelyOf(partners.at(likely.front())) != std::vector{i}) continue;
+    // Two faults that each have a name are as likely: the pair stays open.
+    if (HasName(changes[i]) || HasName(changes[likely.front()])) continue;
     changes[i].kind = CampaignKind::kExchanged;
     changes[i].partner = likely.front();
   }

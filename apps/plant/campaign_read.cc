@@ -58,6 +58,17 @@ Expected<void> TakeRow(const nlohmann::json& row, const std::string& path, int l
       *value = static_cast<float>(found->is_null() ? kUnknown : found->get<double>());
     }
   }
+  // What older results may lack.
+  const auto number = [&](const char* name) {
+    const auto found = row.find(name);
+    return static_cast<float>(found != row.end() && found->is_number() ? found->get<double>()
+                                                                       : kUnknown);
+  };
+  for (int q = 0; q < kCampaignKept; ++q) string.measured[q] = number(kMeasuredColumns[q]);
+  string.procedure = text("procedure");
+  string.sparkline = text("sparkline");
+  string.irradiance_W_m2 = number("irradiance_Wm2");
+  string.temperature_C = number("temperature_C");
   const std::string date = text("date");
   if (!date.empty()) {
     if (results->first_date.empty() || date < results->first_date) results->first_date = date;
@@ -88,9 +99,14 @@ Expected<void> ReadCsvRows(const std::string& path, std::istream* file, EarlierR
   for (int q = 0; q < kCampaignKept; ++q) {
     figures.insert(figures.end(), {kFigureColumns[q], kExpandedColumns[q]});
   }
+  std::vector<const char*> more = {"irradiance_Wm2", "temperature_C"};
+  more.insert(more.end(), std::begin(kMeasuredColumns), std::end(kMeasuredColumns));
   if (places.count("id") == 0) return NoColumn("id", path, 1);
   for (const char* name : figures) {
     if (places.count(name) == 0) return NoColumn(name, path, 1);
+  }
+  for (const char* name : more) {
+    if (places.count(name) > 0) figures.push_back(name);
   }
   for (int line = 2; std::getline(*file, text); ++line) {
     if (!splitter.Split(text)) return Fail("expected closed quotes in one line", path, line, 1);
@@ -100,7 +116,7 @@ Expected<void> ReadCsvRows(const std::string& path, std::istream* file, EarlierR
           line, 1);
     }
     nlohmann::json row;
-    for (const char* name : {"id", "cause", "cause_about", "date"}) {
+    for (const char* name : {"id", "cause", "cause_about", "date", "procedure", "sparkline"}) {
       const auto found = places.find(name);
       if (found == places.end()) continue;
       row[name] = WithoutApostrophe(std::string(splitter[found->second]));
@@ -203,13 +219,19 @@ std::string EarlierText(const EarlierResults& earlier) {
     return std::isfinite(value) ? fmt::format("{}", double{value}) : std::string("null");
   };
   for (const CampaignString& string : earlier.strings) {
-    text += fmt::format("{{\"id\":{},\"cause\":{},\"cause_about\":\"{}\"",
-                        BatchJson(string.id).dump(-1, ' ', false, replace),
-                        BatchJson(string.cause).dump(-1, ' ', false, replace),
-                        string.repeat ? "sweep" : "");
+    const auto quoted = [&](const std::string& of) {
+      return BatchJson(of).dump(-1, ' ', false, replace);
+    };
+    text += fmt::format(
+        "{{\"id\":{},\"cause\":{},\"cause_about\":\"{}\",\"procedure\":{},\"sparkline\":{}",
+        quoted(string.id), quoted(string.cause), string.repeat ? "sweep" : "",
+        quoted(string.procedure), quoted(string.sparkline));
+    text += fmt::format(",\"irradiance_Wm2\":{},\"temperature_C\":{}",
+                        number(string.irradiance_W_m2), number(string.temperature_C));
     for (int q = 0; q < kCampaignKept; ++q) {
-      text += fmt::format(",\"{}\":{},\"{}\":{}", kFigureColumns[q], number(string.values[q]),
-                          kExpandedColumns[q], number(string.expanded[q]));
+      text += fmt::format(",\"{}\":{},\"{}\":{},\"{}\":{}", kFigureColumns[q],
+                          number(string.values[q]), kExpandedColumns[q], number(string.expanded[q]),
+                          kMeasuredColumns[q], number(string.measured[q]));
     }
     text += "}\n";
   }

@@ -105,13 +105,20 @@ void CampaignAddition::Learn(const RowGroup& group) {
     for (int q = 0; q < kCampaignKept; ++q) {
       string.values[q] = static_cast<float>(reader.Number(row, kFigureColumns[q]));
       string.expanded[q] = static_cast<float>(reader.Number(row, kExpandedColumns[q]));
+      string.measured[q] = static_cast<float>(reader.Number(row, kMeasuredColumns[q]));
     }
+    string.procedure = reader.Text(row, "procedure");
+    string.sparkline = reader.Text(row, "sparkline");
+    string.irradiance_W_m2 = static_cast<float>(reader.Number(row, "irradiance_Wm2"));
+    string.temperature_C = static_cast<float>(reader.Number(row, "temperature_C"));
     state_->later.push_back(std::move(string));
   }
 }
 
 void CampaignAddition::EndLearning() {
   if (!state_) return;
+  CarryInOneWay(&state_->earlier.strings);
+  CarryInOneWay(&state_->later);
   state_->campaign = CompareCampaigns(state_->earlier.strings, state_->later, state_->level);
 }
 

@@ -45,6 +45,8 @@ Expected<EarlierResults> ReadEarlierCopy(const std::string& path, const std::str
 // Columns of the figures and of their uncertainties, in the order of CampaignFigure.
 inline constexpr const char* kFigureColumns[] = {"Isc_stc_A",  "Voc_stc_V", "FF_stc",
                                                  "Pmax_stc_W", "Imp_stc_A", "Vmp_stc_V"};
+inline constexpr const char* kMeasuredColumns[] = {"Isc_A",  "Voc_V", "FF",
+                                                   "Pmax_W", "Imp_A", "Vmp_V"};
 inline constexpr const char* kExpandedColumns[] = {"Isc_stc_U_A",  "Voc_stc_U_V", "FF_stc_U",
                                                    "Pmax_stc_U_W", "Imp_stc_U_A", "Vmp_stc_U_V"};
 

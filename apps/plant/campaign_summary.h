@@ -9,6 +9,7 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/model/cause.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -32,18 +33,12 @@ struct CommonChange {
 
 // A string that changed by more than is usual, or that can only be named.
 struct StringChange {
-  std::int64_t rank = 0;          // 1: the largest loss; 0: no power is known
-  std::string id;                 // its name in the later campaign
-  std::string kind;               // as in the column change_kind
-  std::string sentence;           // as in the column change_sentence
-  std::string candidates;         // as in the column change_candidates
-  std::string action;             // what to do next
+  std::int64_t rank = 0;  // 1: the largest loss; 0: no power is known
+  std::string id;         // its name in the later campaign
+  Cause cause;            // its id as in the column change_kind, its power: lost; negative: gained
   double isc_percent = kUnknown;  // its own change of Isc, in percent
   double voc_percent = kUnknown;  // its own change of Voc, in percent
   double ff_percent = kUnknown;   // its own change of FF, adjusted if Isc and Voc did not change
-  double lost_W = kUnknown;       // power lost at standard conditions, in W; negative: gained
-  double lost_low_W = kUnknown;   // lower end of its 95 % interval
-  double lost_high_W = kUnknown;  // upper end of its 95 % interval
 };
 
 // A campaign compared with an earlier one of the same plant.

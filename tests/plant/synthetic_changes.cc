@@ -78,7 +78,7 @@ void GrownTree(Random* random, StringRig* rig) {
 constexpr const char* kResistance = "series_resistance|fill_factor";
 constexpr const char* kSubstrings = "substrings";
 constexpr const char* kLight = "light";
-constexpr const char* kKnee = "shunt_or_mismatch|fill_factor|several";
+constexpr const char* kKnee = "shunt|mismatch|shunt_or_mismatch|fill_factor|several";
 
 }  // namespace
 

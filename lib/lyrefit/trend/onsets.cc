@@ -138,6 +138,25 @@ std::vector<TrendOnset> OnsetsOfSubstrings(const TrendBlocks& blocks, const Tren
   return onsets;
 }
 
+// What a lost substring changes besides, and an onset of the same cause in another quantity, are no
+// onsets of their own.
+std::vector<TrendOnset> WithoutEchoes(const std::vector<TrendOnset>& onsets) {
+  constexpr double kEcho_s = 30 * kDay_s;
+  std::vector<TrendOnset> own;
+  for (const TrendOnset& onset : onsets) {
+    const bool echo = std::any_of(onsets.begin(), onsets.end(), [&](const TrendOnset& other) {
+      return other.cause.id == "lost_substrings" && onset.cause.id != other.cause.id &&
+             std::fabs(onset.time_s - other.time_s) < kEcho_s;
+    });
+    const bool again = std::any_of(own.begin(), own.end(), [&](const TrendOnset& other) {
+      return onset.cause.id == other.cause.id && onset.quantity != other.quantity &&
+             std::fabs(onset.time_s - other.time_s) < kTogether_days * kDay_s;
+    });
+    if (!echo && !again) own.push_back(onset);
+  }
+  return own;
+}
+
 }  // namespace
 
 std::vector<TrendQuantity> WithoutChangesByShunt(std::vector<TrendQuantity> quantities) {
@@ -175,7 +194,7 @@ std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport&
   std::stable_sort(
       onsets.begin(), onsets.end(),
       [](const TrendOnset& one, const TrendOnset& other) { return one.time_s < other.time_s; });
-  return onsets;
+  return WithoutEchoes(onsets);
 }
 
 }  // namespace lyrefit

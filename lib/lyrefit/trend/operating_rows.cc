@@ -88,7 +88,7 @@ std::map<int, double> MediansAround(const RowsOfDay& days, const std::vector<dou
 void MarkLost(const TrendDevice& device, const RowsOfDay& days, const std::vector<double>& ratios,
               double reference_end_s, std::vector<TrendRow>* rows) {
   constexpr int kMostTold = 8;
-  constexpr double kNear = 0.35;
+  constexpr double kNear = 0.35, kWholeDay = 0.8;
   if (device.substrings < 2 || device.substrings > kMostTold) return;
   std::vector<double> first;
   for (const auto& [day, of_day] : days) {
@@ -103,6 +103,11 @@ void MarkLost(const TrendDevice& device, const RowsOfDay& days, const std::vecto
     const double lost = device.substrings * (1 - std::exp(Median(own) - usual));
     const double whole = std::round(lost);
     if (whole < 1 || whole >= device.substrings || std::fabs(lost - whole) > kNear) continue;
+    // Shade bypasses a substring for a part of the day, a shorted diode for all of it.
+    const auto missing = std::count_if(own.begin(), own.end(), [&](double ratio) {
+      return std::fabs(device.substrings * (1 - std::exp(ratio - usual)) - whole) <= kNear;
+    });
+    if (static_cast<double>(missing) < kWholeDay * static_cast<double>(own.size())) continue;
     for (const std::size_t i : of_day) (*rows)[i].lost_substrings = static_cast<int>(whole);
   }
 }
@@ -221,6 +226,8 @@ void FillWeek(const TrendDevice& device, const WeekParameters& week, bool tells,
   for (const std::size_t i : of_week) {
     TrendRow& row = (*rows)[i];
     row.parameters = ParametersOf(device, week, EquationOf(device, row, week).light);
+    // A point that no light of the law gives is not at maximum power.
+    if (!std::isfinite(row.parameters[kTrendLight])) row.state = TrendRowState::kOffMaximum;
     row.represents = tells && std::floor(row.time_s / kDay_s) == std::floor(middle_s / kDay_s);
   }
 }

@@ -34,6 +34,7 @@ struct QuantityKind {
   bool monitored;  // its changes to the worse are onsets
   bool changes;    // whether changes are looked for
   bool operating;  // whether operating points tell it
+  bool operating_onsets;  // whether its onsets in operating points hold; else they are not claimed
 };
 
 double LightPercent(const TrendBlocks& blocks, double level) {
@@ -50,16 +51,18 @@ double LostVoltage(const TrendBlocks& blocks, double level) {
 }
 
 constexpr QuantityKind kQuantityKinds[] = {
-    {"p_mp", "power, of what the reference lets expect", "%", -1, AsItIs, false, true, true},
-    {"light", "light on the cells, per light of the sensor", "%", kTrendLight, LightPercent, false,
-     true, true},
-    {"resistance_series", "series resistance", "ohm", kTrendSeries, AsItIs, true, true, true},
-    {"recombination", "voltage lost by recombination", "V", kTrendVoltage, LostVoltage, true, true,
-     true},
-    {"second_diode", "share of the second diode", "%", kTrendSecond, AsPercent, false, false,
+    {"p_mp", "power, of what the reference lets expect", "%", -1, AsItIs, false, true, true,
      false},
-    {"conductance_shunt", "shunt conductance", "S", kTrendShunt, AsItIs, true, true, false},
-    {"mismatch", "power lost by mismatch, within substrings", "%", -1, AsItIs, true, true, false},
+    {"light", "light on the cells, per light of the sensor", "%", kTrendLight, LightPercent, false,
+     true, true, false},
+    {"resistance_series", "series resistance", "ohm", kTrendSeries, AsItIs, true, true, true, true},
+    {"recombination", "voltage lost by recombination", "V", kTrendVoltage, LostVoltage, true, true,
+     true, false},
+    {"second_diode", "share of the second diode", "%", kTrendSecond, AsPercent, false, false,
+     false, false},
+    {"conductance_shunt", "shunt conductance", "S", kTrendShunt, AsItIs, true, true, false, false},
+    {"mismatch", "power lost by mismatch, within substrings", "%", -1, AsItIs, true, true, false,
+     false},
 };
 
 double ReferenceMean(const TrendBlocks& blocks, const BlockSeries& own) {
@@ -126,8 +129,9 @@ FoundQuantity FindQuantity(const TrendBlocks& blocks, TrendSource source,
   quantity.name = kind.name;
   quantity.title = kind.title;
   quantity.unit = kind.unit;
-  quantity.monitored = kind.monitored;
-  if (!kind.operating && source == TrendSource::kOperatingPoints) {
+  const bool points = source == TrendSource::kOperatingPoints;
+  quantity.monitored = kind.monitored && (!points || kind.operating_onsets);
+  if (!kind.operating && points) {
     quantity.missing = "operating points hardly depend on it, sweeps tell it";
     return result;
   }

@@ -89,7 +89,7 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
   report.loss_days = std::move(losses.days);
   report.quantities = WithoutChangesByShunt(std::move(report.quantities));
   report.onsets = FindOnsets(blocks, report);
-  report.verdict = VerdictOf(report);
+  report.verdict = VerdictOf(report, options.least_irradiance_W_m2);
   report.not_decided = NotDecided(report);
   report.warnings = FindWarnings(report);
   if (progress.Step()) return Fail("interrupted");

@@ -12,7 +12,7 @@ namespace {
 
 bool Decided(const Ranged& one) { return one.low_95 > 0 || one.high_95 < 0; }
 
-std::string PowerVerdict(const TrendReport& report) {
+std::string PowerVerdict(const TrendReport& report, double least_irradiance_W_m2) {
   const TrendLoss& total = report.losses.back();
   const Ranged& energy = total.energy_percent;
   if (!std::isfinite(energy.value)) return "The series is too short for a loss.";
@@ -20,11 +20,12 @@ std::string PowerVerdict(const TrendReport& report) {
     return "The series is too short for the errors of a loss.";
   }
   std::string text = fmt::format(
-      "Since the reference the device gave {:.1f} % ({:.1f} to {:.1f}) {} energy than it would "
-      "have "
-      "given unchanged",
+      "Against its first days, until {}, the device gave {:.1f} % ({:.1f} to {:.1f}) {} energy in "
+      "light above {:g} W/m2 than it would have given unchanged",
+      DateText(report.reference_end_s),
       std::fabs(energy.value), energy.value < 0 ? -energy.high_95 : energy.low_95,
-      energy.value < 0 ? -energy.low_95 : energy.high_95, energy.value < 0 ? "more" : "less");
+      energy.value < 0 ? -energy.low_95 : energy.high_95, energy.value < 0 ? "more" : "less",
+      least_irradiance_W_m2);
   const TrendLoss* largest = nullptr;
   for (std::size_t p = 0; p + 1 < report.losses.size(); ++p) {
     const TrendLoss& loss = report.losses[p];
@@ -59,8 +60,8 @@ std::string PartTitle(const std::string& part) {
   return part;
 }
 
-std::string VerdictOf(const TrendReport& report) {
-  return PowerVerdict(report) + OnsetVerdict(report);
+std::string VerdictOf(const TrendReport& report, double least_irradiance_W_m2) {
+  return PowerVerdict(report, least_irradiance_W_m2) + OnsetVerdict(report);
 }
 
 std::vector<std::string> NotDecided(const TrendReport& report) {
@@ -83,6 +84,9 @@ std::vector<std::string> NotDecided(const TrendReport& report) {
     not_decided.emplace_back(
         "Operating points do not show a shunt: what it takes is counted under light and series "
         "resistance. A sweep in dim light shows it.");
+    not_decided.emplace_back(
+        "Operating points do not date a loss of voltage by recombination, by potential-induced "
+        "degradation or by a temperature sensor: they show it, and sweeps tell when and what.");
   }
   if (days < 10) {
     not_decided.emplace_back(

@@ -30,6 +30,8 @@ constexpr double kTemperatureSigma = 0.0075, kTemperatureMost = 0.018;
 constexpr double kMechanismError = 0.06;
 // Errors of neighbouring currents of a sweep are alike: as many count as one.
 constexpr double kAlikeCurrents = 3;
+// The shape of a sweep departs from every mechanism by more than noise: chi-squared over its mean.
+constexpr double kOverdispersion = 2;
 // -2 ln of the probability of a parameter, as of Schwarz's criterion for two dozen currents.
 constexpr double kPerParameter = 3.2;
 constexpr double kOtherModulesRare = 3;  // -2 ln of how much rarer than a fault
@@ -339,8 +341,10 @@ class MechanismSearch {
                kAlikeCurrents;
       }
     }
-    const double parts = ill_.currents.empty() ? 4 : 3 + (kSparklinePoints - 2) / kAlikeCurrents;
-    fit.goodness = ChiSquaredTail(sum, parts);
+    fit.goodness = ill_.currents.empty()
+                       ? ChiSquaredTail(sum, 4)
+                       : ChiSquaredTail(sum / kOverdispersion,
+                                        3 + (kSparklinePoints - 2) / kAlikeCurrents);
     double prior = kPerParameter;
     if (mechanism == Mechanism::kTemperature) prior += std::pow(size / kTemperatureSigma, 2);
     if (mechanism == Mechanism::kShunt || mechanism == Mechanism::kMismatch) prior += kPerParameter;

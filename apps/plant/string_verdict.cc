@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "lyrefit/base/append.h"
@@ -86,6 +87,7 @@ std::string ToDoIn(const StringVerdict& verdict) {
 std::string Shown(const std::string& from) {
   return from == "curve"  ? "shown by its curve"
          : from == "plan" ? "by its plan and its neighbours"
+         : from == "campaign" ? "by its change since the last campaign"
                           : "by its neighbours";
 }
 
@@ -101,13 +103,14 @@ const ColumnList<StringVerdict>& VerdictColumns() {
     Append(
         CauseColumns<StringVerdict>(
             "string_",
-            {"its cause: the id of cause or of plan_cause; empty: none is named",
+            {"its cause: the id of cause or of plan_cause, or the first of change_candidates; empty: "
+             "none is named",
              "what it belongs to: device; sweep, instrument or conditions, to be measured again; "
              "plan; or unknown",
              "of the cause, against all others"},
             &StringVerdict::cause),
         &all);
-    Append({{"string_cause_from", "", "what shows it: curve, plan or neighbours",
+    Append({{"string_cause_from", "", "what shows it: curve, plan, neighbours or campaign",
              &StringVerdict::from},
             {"string_lost_W", "W",
              "what the string gives less than without the cause, in the light of the sweep",
@@ -144,6 +147,25 @@ Cause StringJudge::OfPlan(const ResultRow& row) const {
   return cause.id.empty() && cause.sentence.rfind("not judged", 0) == 0 ? Cause() : cause;
 }
 
+Cause StringJudge::OfChange(const ResultRow& row) const {
+  Cause cause;
+  const std::string kind = reader_.Text(row, "change_kind");
+  std::istringstream ids(reader_.Text(row, "change_candidates"));
+  const double lost_W = reader_.Number(row, "change_lost_W");
+  const bool of_device = !IsOf(kind, {"exchanged", "renamed", "measurement"});
+  if (!of_device || !(ids >> cause.id)) return cause;
+  const bool temperature = kind == "temperature";
+  if (!temperature && !(lost_W > 0)) return Cause();
+  for (std::string other; ids >> other;) cause.equivalents.push_back(other);
+  cause.title = InWords({cause.id});
+  cause.group = temperature ? "conditions" : "device";
+  cause.sentence = "since the last campaign: " + reader_.Text(row, "change_sentence");
+  cause.action = reader_.Text(row, "change_action");
+  cause.probability = reader_.Number(row, "change_probability");
+  cause.recoverable_power_W.value = lost_W;
+  return cause;
+}
+
 bool StringJudge::IsFine(const ResultRow& row) const {
   const std::string status = reader_.Text(row, "status");
   return status.empty() || status == "fine";
@@ -159,6 +181,13 @@ StringVerdict StringJudge::Judge(const ResultRow& row) const {
     verdict.cause = plan;
     const bool planned = std::isfinite(reader_.Number(row, "plan_modules_in_series"));
     verdict.from = planned ? "plan" : "neighbours";
+  }
+  if (verdict.cause.id.empty() || IsLeftOut(verdict.cause)) {
+    const Cause change = OfChange(row);
+    if (!change.id.empty()) {
+      verdict.cause = change;
+      verdict.from = "campaign";
+    }
   }
   verdict.zone = reader_.Text(row, "zone");
   verdict.outlier = reader_.Text(row, "group_outlier");

@@ -16,7 +16,8 @@
 namespace lyrefit {
 
 // The one verdict of a string, made of all that its row holds: the rating (zone), the cause that its
-// curve shows, the fault by which it differs from plan and neighbours, and its combiner. The row, the
+// curve shows, the fault by which it differs from plan and neighbours, what changed since the earlier
+// campaign, and its combiner. The row, the
 // string's page, the plant's page and the summary print it, and nothing else as a verdict.
 
 // What is to be done about a string, the most urgent first.
@@ -40,7 +41,7 @@ struct EnumTable<ToDo> {
 struct StringVerdict {
   ToDo to_do = ToDo::kNothing;
   std::string zone;     // against the rating; empty: no field test
-  std::string from;     // "curve", "plan" or "neighbours": what shows the cause; empty: no cause
+  std::string from;     // "curve", "plan", "neighbours" or "campaign": what shows the cause; empty: none
   std::string outlier;  // how it differs from the strings of its combiner
   // What the table says of it. Its id is empty where none has a name; a difference from the plan
   // without a name has a sentence.
@@ -64,6 +65,8 @@ class StringJudge {
  private:
   Cause OfCurve(const ResultRow& row) const;
   Cause OfPlan(const ResultRow& row) const;
+  // Of a loss since the earlier campaign, or of a temperature that was read otherwise.
+  Cause OfChange(const ResultRow& row) const;
 
   RowReader reader_;
 };

@@ -67,6 +67,31 @@ TEST(StringJudge, DoesWhatRatingAndCauseCallFor) {
   EXPECT_EQ(Judged({{"status", "fine"}, {"zone", "pass"}}).to_do, ToDo::kNothing);
 }
 
+// What neither curve nor plan names, a loss since the last campaign does.
+TEST(StringJudge, NamesWhatChangedSinceTheLastCampaign) {
+  const std::map<std::string, ResultCell> change = {
+      {"status", "fine"},
+      {"zone", "undecided"},
+      {"change_kind", "substrings"},
+      {"change_candidates", "bypass_short missing_module"},
+      {"change_sentence", "the voltage of whole groups of cells is missing"},
+      {"change_action", "Count the modules."},
+      {"change_probability", 0.9},
+      {"change_lost_W", 90.0}};
+  const StringVerdict verdict = Judged(change);
+  EXPECT_EQ(verdict.cause.id, "bypass_short");
+  EXPECT_THAT(verdict.cause.equivalents, ElementsAre("missing_module"));
+  EXPECT_EQ(verdict.from, "campaign");
+  EXPECT_EQ(verdict.to_do, ToDo::kWork);
+  EXPECT_EQ(verdict.cause.recoverable_power_W.value, 90);
+  EXPECT_THAT(SentencesOf(verdict)[0], HasSubstr("by its change since the last campaign"));
+  EXPECT_EQ(Judged(With(change, {{"change_lost_W", -90.0}})).to_do, ToDo::kNothing) << "a gain";
+  EXPECT_EQ(Judged(With(change, {{"change_kind", "exchanged"}})).cause.id, "");
+  EXPECT_EQ(Judged(With(change, {{"change_kind", "temperature"}, {"change_lost_W", 0.0}})).to_do,
+            ToDo::kMeasureAgain);
+  EXPECT_EQ(Judged(With(change, Plan("missing_module", "device", 230))).from, "plan");
+}
+
 TEST(StringJudge, PutsThePlanInThePlaceOfWhatTheCurveDoesNotShow) {
   const auto missing = Plan("missing_module", "device", 230);
   const StringVerdict none = Judged(With({{"status", "fine"}, {"zone", "undecided"}}, missing));

@@ -65,7 +65,12 @@ std::vector<Slot> LaterSlots(const PlantRequest& request) {
   for (const PlantChange& change : PlantChanges()) {
     const int ill = change.fault == nullptr ? -1 : PlaceOfFault(slots, change.fault);
     if (change.fault != nullptr && ill < 0) continue;
-    const int place = change.of == ChangeOf::kRepair ? ill : FreePlace(slots, &random);
+    int place = change.of == ChangeOf::kRepair ? ill : FreePlace(slots, &random);
+    // Cables and labels are exchanged within a combiner.
+    const auto combiner = [](int at) { return at / kStringsOfCombiner; };
+    while (change.of == ChangeOf::kExchange && combiner(place) != combiner(ill)) {
+      place = FreePlace(slots, &random);
+    }
     Slot& slot = slots[place];
     slot.change = &change;
     if (change.of == ChangeOf::kName) slot.id += "b", slot.partner = IdOf(place);

@@ -1,4 +1,5 @@
-#include "lyrefit/base/numbers.h"
+#include <fmt/format.h>
+
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/csv.h"
 
@@ -7,13 +8,9 @@ namespace {
 
 std::string YesNo(bool value) { return value ? "yes" : "no"; }
 
-std::string JoinWith(const std::vector<std::string>& parts, const std::string& separator) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : separator) + part;
-  return text;
-}
-
-std::string SizedFields(const Sized& sized) {
+// `sized`: a Sized, or a parameter of a cause.
+template <class T>
+std::string SizedFields(const T& sized) {
   return CsvField(sized.value) + "," + CsvField(sized.low_95) + "," + CsvField(sized.high_95);
 }
 
@@ -22,14 +19,15 @@ std::string StrengthText(const Cause& cause) {
   for (const CauseParameter& p : cause.strength) {
     texts.push_back(p.symbol + "=" + CsvField(p.value) + (p.unit.empty() ? "" : " " + p.unit));
   }
-  return JoinWith(texts, "; ");
+  return fmt::format("{}", fmt::join(texts, "; "));
 }
 
 std::string CauseLine(const std::string& name, const Cause& cause, bool named) {
   return CsvLine({CsvField(name), CsvField(cause.id), CsvField(cause.title), YesNo(named),
                   SizedFields(cause.current_effect), SizedFields(cause.power_effect),
                   SizedFields(cause.recoverable_power_W), CsvField(cause.probability),
-                  CsvField(StrengthText(cause)), CsvField(JoinWith(cause.equivalents, " ")),
+                  CsvField(StrengthText(cause)),
+                  CsvField(fmt::format("{}", fmt::join(cause.equivalents, " "))),
                   CsvField(cause.sentence)});
 }
 
@@ -56,12 +54,11 @@ std::string CausesCsv(const std::vector<std::string>& names,
 std::string OutlierSweepsCsv(const OutlierSweeps& outliers) {
   std::string csv = "sweep,differs,p_value,cause,size,low_95,high_95,unit,power,sentence\n";
   for (const ReferenceComparison& sweep : outliers.sweeps) {
-    const ReferenceCause none{"", "", kUnknown, kUnknown, kUnknown, "", kUnknown, 0};
-    const ReferenceCause& cause = sweep.causes.empty() ? none : sweep.causes.front();
+    const ReferenceCause cause = sweep.causes.empty() ? ReferenceCause() : sweep.causes.front();
+    const CauseParameter size = cause.strength.empty() ? CauseParameter() : cause.strength.front();
     csv += CsvLine({CsvField(sweep.name), YesNo(sweep.differs), CsvField(sweep.p_value),
-                    CsvField(cause.id), CsvField(cause.size), CsvField(cause.low_95),
-                    CsvField(cause.high_95), CsvField(cause.unit), CsvField(cause.power),
-                    CsvField(sweep.sentence)});
+                    CsvField(cause.id), SizedFields(size), CsvField(size.unit),
+                    CsvField(-cause.power_effect.value), CsvField(sweep.sentence)});
   }
   return csv;
 }

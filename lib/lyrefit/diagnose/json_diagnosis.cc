@@ -10,7 +10,16 @@ LYREFIT_JSON_FIELDS(Alternative, id, title, probability)
 LYREFIT_JSON_FIELDS(CannotBeExcluded, id, biases, sentence, separate_by)
 LYREFIT_JSON_FIELDS(ReferenceRow, symbol, name, unit, now, expected, low_95, high_95, z,
                     corrected_p, power, differs)
-LYREFIT_JSON_FIELDS(ReferenceCause, id, sentence, size, low_95, high_95, unit, power, explained)
+
+void to_json(Json& j, const ReferenceCause& cause) {
+  const CauseParameter& size = cause.strength.front();
+  LYREFIT_PUT_FIELDS(j, cause, id, sentence);
+  j["size"] = size.value;
+  LYREFIT_PUT_FIELDS(j, size, low_95, high_95, unit);
+  j["power"] = -cause.power_effect.value;
+  j["explained"] = cause.explained;
+}
+
 LYREFIT_JSON_FIELDS(ReferenceComparison, name, differs, p_value, sentence, rows, causes, references,
                     left_out, regressed_on, common, warnings)
 
@@ -33,10 +42,7 @@ Json CauseParametersJson(const std::string& effect, const std::vector<CauseParam
   Json list = Json::array();
   for (const CauseParameter& p : parameters) {
     Json one = EffectParameterJson(effect, p.symbol, p.name, p.unit);
-    one.update({{"value", p.value},
-                {"low_95", p.low_95},
-                {"high_95", p.high_95},
-                {"at_bound", p.at_bound}});
+    LYREFIT_PUT_FIELDS(one, p, value, low_95, high_95, at_bound);
     list.push_back(std::move(one));
   }
   return list;
@@ -68,9 +74,7 @@ LYREFIT_JSON_FIELDS(Verdict, found, unexplained, sentence, causes, below_floor, 
 
 void to_json(Json& j, const DeviceFinding& finding) {
   LYREFIT_PUT_FIELDS(j, finding, id, symbol);
-  j["value"] = finding.value.value;
-  j["low_95"] = finding.value.low_95;
-  j["high_95"] = finding.value.high_95;
+  LYREFIT_PUT_FIELDS(j, finding.value, value, low_95, high_95);
   LYREFIT_PUT_FIELDS(j, finding, healthy_limit, power_loss, sentence);
   const Cause cause = CauseOf(finding);
   j["title"] = cause.title;

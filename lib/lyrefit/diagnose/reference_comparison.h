@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/model/cause.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -24,15 +25,10 @@ struct ReferenceRow {
   bool differs = false;    // at the significance level of the options
 };
 
-// A change of a reference sweep that would explain the difference.
-struct ReferenceCause {
-  std::string id;  // "series_resistance", "shunt", "ideality", or an effect's: "shading", "drift"
-  std::string sentence;  // "series resistance +8.1 %: -0.62 % of Pmax"
-  double size = 0;       // in `unit`
-  double low_95 = 0;
-  double high_95 = 0;
-  std::string unit;
-  double power = 0;      // relative change of Pmax
+// A change of a reference sweep that would explain the difference. Its id is "series_resistance",
+// "shunt", "ideality", or an effect's, as "shading"; its only strength is its size. Its effect on power
+// is the part of Pmax that it takes, below 0 if it adds some.
+struct ReferenceCause : Cause {
   double explained = 0;  // fraction of the squared difference (in standard deviations)
 };
 

@@ -9,7 +9,7 @@
 
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/diagnose/sweep_state.h"
+#include "lyrefit/diagnose/expectation.h"
 #include "model/synthetic_curve.h"
 
 namespace lyrefit {

@@ -3,14 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "lyrefit/effects/catalogue.h"
-
 namespace lyrefit {
-
-std::string AboutOf(const std::string& cause) {
-  const Effect* const effect = FindEffect(cause);
-  return effect == nullptr ? std::string() : ToText(effect->where);
-}
 
 std::optional<double> RatedPowerBeside(const BatchCurve& curve) {
   const auto beside = curve.beside.find("rated_power_W");

@@ -101,10 +101,6 @@ TranslateOptions BatchTranslateOptions();
 // number.
 std::optional<double> RatedPowerBeside(const BatchCurve& curve);
 
-// Subject of the cause `cause` by the catalogue (Effect::where): "device", "sweep", "instrument",
-// "conditions", "unknown". Empty: no such cause.
-std::string AboutOf(const std::string& cause);
-
 // A cell; unknown if the number is not finite or the text is empty.
 ResultCell NumberCell(double value);
 ResultCell TextCell(const std::string& text);

@@ -7,6 +7,7 @@
 #include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/diagnose/held_out.h"
+#include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
 
@@ -43,5 +44,11 @@ std::vector<Cause> DescribeBelow(const Selection& selection);
 
 // Base parameters and maximum power of the device, with and without the causes.
 std::vector<ParameterShift> DescribeShifts(const Selection& selection);
+
+// Size of effect number `index` of a fit for a technician: in the effect's own words
+// (Effect::in_words), else the largest change of the current. `strength`: its parameters as reported,
+// whose intervals are repeated.
+std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit, int index,
+                                 const std::vector<CauseParameter>& strength);
 
 }  // namespace lyrefit

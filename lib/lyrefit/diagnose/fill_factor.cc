@@ -1,4 +1,3 @@
-#include "lyrefit/diagnose/fill_factor.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +17,6 @@
 #include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/diagnose/resistance.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/imitation.h"
+#include "lyrefit/diagnose/fit_effect.h"
 
 #include <algorithm>
 #include <cmath>

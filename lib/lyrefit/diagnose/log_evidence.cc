@@ -1,5 +1,5 @@
 // Optimized fully: it runs once for each candidate.
-#include "lyrefit/diagnose/log_evidence.h"
+#include "lyrefit/diagnose/fitted_candidate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,8 +12,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/expectation.h"
-#include "lyrefit/diagnose/reference_causes.h"
-#include "lyrefit/diagnose/reference_rows.h"
+#include "lyrefit/diagnose/reference_parts.h"
 #include "lyrefit/report/side_by_side.h"
 
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/reference_causes.h"
+#include "lyrefit/diagnose/reference_parts.h"
 
 #include <fmt/format.h>
 

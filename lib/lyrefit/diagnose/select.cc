@@ -9,7 +9,7 @@
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/selection_state.h"
-#include "lyrefit/diagnose/verdict_text.h"
+#include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {

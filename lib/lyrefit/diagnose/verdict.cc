@@ -10,7 +10,6 @@
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {

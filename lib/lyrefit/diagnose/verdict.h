@@ -5,9 +5,36 @@
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/diagnose/measurement.h"
 
 namespace lyrefit {
+
+struct Selection;
+
+// Lack of fit of a fit beyond the noise: root mean square in fractions of Isc.
+Sized LeftBy(const WeightedData& weighted, const LawFit& fit);
+
+// Whether the lack of fit of the base model exceeds both that of modules without a fault and the
+// floor.
+bool MissesTooMuch(const Verdict& verdict, const Floors& floors);
+
+// Whether the causes leave more than noise, the floor and the model's usual misfit of modules
+// without a fault.
+bool LeavesTooMuch(const Verdict& verdict, const Floors& floors);
+
+// What readings of this kind never show: "dirt or slight ageing of all cells alike, ..."
+std::string NotShownBy(const DataTraits& traits);
+
+// "number of bypass diodes not given: assumed 60, one for 20 cells", of a string of which nobody states them; else empty.
+std::string AssumedDiodes(const DataTraits& traits);
+
+// The conclusion in words: fills `remaining`, `comparison`, `not_shown` and `sentence`. The causes
+// are described. `findings`: parameters of the device that are out of range.
+// `probability`: a cause with less is said as one of a set.
+void DescribeVerdict(const Selection& selection, const Floors& floors,
+                     const std::vector<DeviceFinding>& findings, double probability,
+                     Verdict* verdict);
 
 // Combines fits, values and metadata into a verdict. `whiteness_after`: p-value of the whiteness
 // test of the extended model's residuals.

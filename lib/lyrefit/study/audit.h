@@ -5,7 +5,6 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/study/audit_options.h"
 #include "lyrefit/study/audit_report.h"
 
 namespace LYREFIT_PUBLIC lyrefit {

@@ -1,6 +1,7 @@
 // Experimental: may change in a minor version (data/stable).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,14 +9,32 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/parameter.h"
-#include "lyrefit/study/audit_options.h"
 #include "lyrefit/study/read_audit_rows.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
+
+// How a table of published parameters is checked.
+struct AuditOptions {
+  // Folders that are searched for curves, after the folder of the rows and its parent.
+  std::vector<std::string> curve_folders;
+  // Constants k and q of rows that state none. Unset: all three sets are tried, and the matching
+  // ones are reported.
+  std::optional<ConstantSet> constants;
+  Objective objective = Objective::kMeasuredCurrent;  // objective of the claimed RMSEs
+};
+
+inline constexpr OptionRow<AuditOptions> kAuditOptionTable[] = {
+    {"curves", "DIR", "a folder to look for the devices' curves in; may be repeated",
+     &AuditOptions::curve_folders},
+    {"constants", "NAME", "values of k and q of rows that do not say",
+     EnumOption<&AuditOptions::constants>(), OptionTrait::kNone, ": any"},
+    {"objective", "NAME", "which RMSE the claims are of", EnumOption<&AuditOptions::objective>()},
+};
 
 // The result for one row after its RMSE is computed again.
 enum class AuditVerdict {

@@ -1,4 +1,4 @@
-#include "lyrefit/study/journal.h"
+#include "lyrefit/study/compare_journal.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,6 @@
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/study/report/compare_parts.h"
-#include "lyrefit/study/report/compare_script.h"
 #include "lyrefit/study/report/documents.h"
 
 namespace lyrefit {

@@ -1,4 +1,5 @@
 #pragma once
+// Elements shared by the documents on comparisons.
 
 #include <functional>
 #include <string>
@@ -6,9 +7,9 @@
 #include <vector>
 
 #include "lyrefit/report/document.h"
+#include "lyrefit/report/figure.h"
 #include "lyrefit/study/comparison.h"
 
-// Elements shared by the documents on comparisons.
 namespace lyrefit {
 
 // A column of a table: its head, and the text of a row's cell. The first one is left-aligned.
@@ -72,5 +73,10 @@ Section ProblemSection(const Comparison& comparison, const ProblemResult& proble
 // the ranking after the polish. Each has no blocks if there is no result.
 Section RankSection(const ProblemResult& problem);
 Section PolishVerdict(const ProblemResult& problem);
+
+// Figures of a comparison, one panel for each problem; documents.h describes them. At least one
+// problem is required.
+Figure BoxFigure(const Comparison& comparison);
+Figure ConvergenceFigure(const Comparison& comparison);
 
 }  // namespace lyrefit

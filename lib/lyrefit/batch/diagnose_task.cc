@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lyrefit/base/append.h"
-#include "lyrefit/batch/cause_columns.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/documents.h"

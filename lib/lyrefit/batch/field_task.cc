@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lyrefit/base/append.h"
-#include "lyrefit/batch/cause_columns.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/translate/translate.h"

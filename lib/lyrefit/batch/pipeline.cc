@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/base/stoppable_reads.h"
+#include "lyrefit/base/file.h"
 
 namespace lyrefit {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "lyrefit/read/spreadsheet_text.h"
 #include "lyrefit/report/fit_parts.h"
-#include "lyrefit/report/readable.h"
+#include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
 namespace {

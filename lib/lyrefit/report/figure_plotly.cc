@@ -8,7 +8,6 @@
 
 #include "lyrefit/report/figure_parts.h"
 #include "lyrefit/report/html_parts.h"
-#include "lyrefit/report/plotly_parts.h"
 
 namespace lyrefit {
 namespace {

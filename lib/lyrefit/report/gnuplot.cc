@@ -12,8 +12,8 @@
 #include <memory>
 #include <system_error>
 
-#include "lyrefit/base/descriptor.h"
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/new_file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/report/figure_parts.h"
 

@@ -8,7 +8,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/report/document.h"
 #include "lyrefit/report/figure.h"
-#include "lyrefit/report/readable.h"
+#include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
 

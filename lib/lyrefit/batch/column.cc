@@ -1,5 +1,8 @@
-#include "lyrefit/batch/result_columns.h"
+#include "lyrefit/batch/column.h"
 
+#include <boost/algorithm/string/finder.hpp>
+#include <boost/algorithm/string/iter_find.hpp>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -8,12 +11,43 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/batch/column.h"
+#include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/sparkline.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/stream/batch_input.h"
 
 namespace lyrefit {
+namespace {
+
+// The texts of a cell by ListCell.
+std::vector<std::string> ListIn(const std::string& text, const char* between) {
+  std::vector<std::string> texts;
+  if (!text.empty()) boost::iter_split(texts, text, boost::first_finder(between));
+  return texts;
+}
+
+}  // namespace
+
+std::string SentenceColumn(const std::string& prefix) {
+  return prefix.empty() ? "cause_sentence" : prefix + "sentence";
+}
+
+Cause CauseIn(const RowReader& reader, const ResultRow& row, const std::string& prefix,
+              const std::string& power) {
+  const auto text = [&](const char* name) { return reader.Text(row, prefix + name); };
+  Cause cause;
+  cause.id = text("cause");
+  cause.title = text("cause_title");
+  cause.group = text("cause_about");
+  cause.sentence = reader.Text(row, SentenceColumn(prefix));
+  cause.equivalents = ListIn(text("equivalents"), " ");
+  cause.separate_by = ListIn(text("separate_by"), "; ");
+  cause.action = text("action");
+  cause.probability = reader.Number(row, prefix + "probability");
+  cause.recoverable_power_W.value = reader.Number(row, power);
+  return cause;
+}
+
 namespace {
 
 constexpr char kDate[] = "date";
@@ -127,6 +161,30 @@ std::vector<ResultColumn> CommonColumns() { return HeadsOf(Columns()); }
 std::vector<ResultCell> CommonCells(const BatchCurve& curve, const BatchItem& item,
                                     const TaskResult& result) {
   return CellsOf(Columns(), CommonRow(curve, item, result));
+}
+
+std::optional<double> RatedPowerBeside(const BatchCurve& curve) {
+  const auto beside = curve.beside.find("rated_power_W");
+  if (beside == curve.beside.end()) return std::nullopt;
+  double value = 0;
+  const char* const end = beside->second.data() + beside->second.size();
+  const auto read = std::from_chars(beside->second.data(), end, value);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  return value;
+}
+
+ResultCell NumberCell(double value) {
+  return std::isfinite(value) ? ResultCell(value) : ResultCell();
+}
+
+ResultCell TextCell(const std::string& text) {
+  return text.empty() ? ResultCell() : ResultCell(text);
+}
+
+ResultCell ListCell(const std::vector<std::string>& texts, const char* separator) {
+  std::string joined;
+  for (const std::string& text : texts) joined += (joined.empty() ? "" : separator) + text;
+  return TextCell(joined);
 }
 
 }  // namespace lyrefit

@@ -7,7 +7,6 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/curve/technology.h"
-#include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/effects/catalogue.h"

@@ -10,7 +10,7 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/sweep_order.h"
-#include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/model/model_points.h"
 

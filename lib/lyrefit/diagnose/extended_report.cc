@@ -1,4 +1,3 @@
-#include "lyrefit/diagnose/extended_report.h"
 
 #include <algorithm>
 #include <cmath>

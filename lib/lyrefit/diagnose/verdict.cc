@@ -8,7 +8,6 @@
 
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/describe.h"
-#include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/effects/catalogue.h"
 

@@ -14,7 +14,6 @@
 #include "lyrefit/study/audit_evidence.h"
 #include "lyrefit/study/audit_lowest.h"
 #include "lyrefit/study/audit_reading.h"
-#include "lyrefit/study/audit_sentence.h"
 
 namespace lyrefit {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/json_parts.h"
-#include "lyrefit/study/audit_sentence.h"
+#include "lyrefit/study/audit_evidence.h"
 #include "lyrefit/study/report/documents.h"
 
 namespace lyrefit {

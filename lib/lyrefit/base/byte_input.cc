@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "lyrefit/base/stoppable_reads.h"
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 
 namespace lyrefit {

@@ -9,7 +9,6 @@
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/curve/dark.h"
-#include "lyrefit/curve/keep_readings.h"
 #include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "lyrefit/base/largest.h"
 #include "lyrefit/base/median.h"
 
 namespace lyrefit {

@@ -13,7 +13,6 @@
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/join_sweeps.h"

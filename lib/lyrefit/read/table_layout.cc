@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/key_point_table.h"
 #include "lyrefit/read/results_above.h"

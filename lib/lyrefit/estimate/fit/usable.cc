@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "lyrefit/base/largest.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/curve/dark.h"

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
-#include <utility>
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/setting_text.h"
 

@@ -2,7 +2,6 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "lyrefit/base/append.h"
 #include "lyrefit/batch/column.h"
@@ -12,8 +11,6 @@
 #include "lyrefit/devices/describe_cell.h"
 #include "lyrefit/devices/device_documents.h"
 #include "lyrefit/read/cells.h"
-#include "lyrefit/report/documents.h"
-#include "lyrefit/report/json.h"
 
 namespace lyrefit {
 namespace {

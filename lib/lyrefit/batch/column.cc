@@ -4,14 +4,10 @@
 #include <boost/algorithm/string/iter_find.hpp>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <utility>
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/sparkline.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/stream/batch_input.h"

@@ -7,7 +7,6 @@
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/json.h"
 
 namespace lyrefit {
 namespace {

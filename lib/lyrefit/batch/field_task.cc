@@ -8,8 +8,6 @@
 
 #include "lyrefit/base/append.h"
 #include "lyrefit/batch/column.h"
-#include "lyrefit/report/documents.h"
-#include "lyrefit/report/json.h"
 #include "lyrefit/translate/translate.h"
 #include "lyrefit/translate/translation_documents.h"
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/batch/batch_task.h"

@@ -9,7 +9,6 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/assumption.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/left_temperature.h"
 

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <string>
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/median.h"
-#include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/technology.h"
 
 namespace lyrefit {

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lyrefit/base/append.h"
-#include "lyrefit/base/constants.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/data_sheet_values.h"
@@ -15,7 +13,6 @@
 #include "lyrefit/devices/family_of_sheet.h"
 #include "lyrefit/family/key_point_solver.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

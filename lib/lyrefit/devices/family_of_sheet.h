@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "lyrefit/base/error.h"
 #include "lyrefit/devices/data_sheet.h"
 #include "lyrefit/devices/data_sheet_family.h"

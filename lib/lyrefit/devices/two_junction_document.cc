@@ -7,10 +7,8 @@
 #include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/two_junction_report.h"
 #include "lyrefit/model/two_junctions.h"
-#include "lyrefit/report/documents.h"
 #include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/json_parts.h"
-#include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -7,9 +7,7 @@
 #include <memory>
 #include <queue>
 #include <utility>
-#include <vector>
 
-#include "lyrefit/base/groups.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/model/make_readings.h"
 #include "lyrefit/model/reading.h"

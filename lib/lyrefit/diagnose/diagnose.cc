@@ -1,8 +1,6 @@
 #include "lyrefit/diagnose/diagnose.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
@@ -23,7 +21,6 @@
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/read/cells.h"
 

@@ -11,7 +11,6 @@
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/diagnosis_parts.h"
 #include "lyrefit/report/fit_parts.h"
-#include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {

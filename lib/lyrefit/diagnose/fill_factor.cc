@@ -1,4 +1,3 @@
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +9,6 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/curve/technology.h"
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/device_findings.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <string>
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"

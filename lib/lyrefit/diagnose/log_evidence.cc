@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/diagnose/decision_constants.h"

@@ -9,7 +9,6 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/expectation.h"
 #include "lyrefit/diagnose/reference_parts.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/odd_cells.h"
 #include "lyrefit/effects/parts.h"
 

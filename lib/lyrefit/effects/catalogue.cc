@@ -2,7 +2,7 @@
 
 #include "lyrefit/base/setting_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/parts.h"
 
 namespace lyrefit {
 namespace {

@@ -12,7 +12,7 @@
 namespace LYREFIT_PUBLIC lyrefit {
 
 // All effects, in the order of reports. To add one: a file effects/<id>.cc with a function that
-// returns it, and its line in catalogue_entries.h.
+// returns it, and its line in parts.h.
 const std::vector<const Effect*>& Catalogue();
 
 // Default values of clip's limits, which mean no limit (current scales).

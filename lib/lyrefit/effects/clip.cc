@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/parts.h"
 
 namespace lyrefit {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/parts.h"
 
 namespace lyrefit {

@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/parts.h"
 
 namespace lyrefit {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/parts.h"
 
 namespace lyrefit {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/odd_cells.h"
 #include "lyrefit/effects/parts.h"
 

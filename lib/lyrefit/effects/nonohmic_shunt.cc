@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/parts.h"
 
 namespace lyrefit {

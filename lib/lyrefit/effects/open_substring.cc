@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/parts.h"
 
 namespace lyrefit {

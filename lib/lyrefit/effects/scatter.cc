@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lyrefit/base/distributions.h"
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/parts.h"
 
 namespace lyrefit {

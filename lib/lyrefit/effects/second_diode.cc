@@ -1,4 +1,3 @@
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/parts.h"
 
 namespace lyrefit {

@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numeric>
 #include <utility>
 
-#include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/odd_cells.h"
 #include "lyrefit/effects/parts.h"
 

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "lyrefit/base/median.h"
-#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/family/family_judge.h"

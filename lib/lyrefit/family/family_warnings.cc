@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lyrefit/base/reasons.h"
-#include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {
 

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/base/observer.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "lyrefit/base/constants.h"
@@ -11,7 +10,6 @@
 #include "lyrefit/inspect/inspect_parts.h"
 #include "lyrefit/read/cells.h"
 #include "lyrefit/report/text_layout.h"
-#include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {
 namespace {

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/results_above.h"
 
 namespace lyrefit {
 namespace {

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <set>
 
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/json_text.h"

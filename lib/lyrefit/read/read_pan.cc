@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/file.h"
@@ -11,8 +10,6 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/key_point_table.h"
 #include "lyrefit/read/results_above.h"
-#include "lyrefit/read/table_header.h"
-#include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {
 namespace {

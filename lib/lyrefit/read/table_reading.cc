@@ -15,7 +15,6 @@
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/sweep_order.h"
-#include "lyrefit/read/join_sweeps.h"
 
 namespace lyrefit {
 namespace {

@@ -2,11 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <string_view>
-#include <utility>
 
 #include "lyrefit/read/spreadsheet_text.h"
 #include "lyrefit/report/fit_parts.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/study/audit.h"
 #include "lyrefit/study/audit_reading.h"
-#include "lyrefit/study/audit_report.h"
 
 namespace lyrefit {
 

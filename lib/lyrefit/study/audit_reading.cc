@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/model/kernel.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/study/audit_lowest.h"

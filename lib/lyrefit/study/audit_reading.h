@@ -7,7 +7,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/model/kernel.h"
-#include "lyrefit/study/audit_report.h"
+#include "lyrefit/study/audit.h"
 
 namespace lyrefit {
 

@@ -12,7 +12,6 @@
 #include <set>
 #include <utility>
 
-#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"

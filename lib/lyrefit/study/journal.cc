@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <utility>
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"

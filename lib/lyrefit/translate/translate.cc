@@ -8,12 +8,10 @@
 #include <utility>
 
 #include "lyrefit/base/append.h"
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/plausibility.h"
-#include "lyrefit/translate/extended_model.h"
 #include "lyrefit/translate/key_point_noise.h"
 #include "lyrefit/translate/prepare.h"
 #include "lyrefit/translate/recommend.h"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/translate/extended_model.h"
 #include "lyrefit/translate/field_inputs.h"
 
 namespace lyrefit {

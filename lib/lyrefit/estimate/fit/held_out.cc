@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/estimate/fit/fit.h"

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace lyrefit {

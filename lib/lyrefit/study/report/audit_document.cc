@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "lyrefit/report/text_layout.h"
-#include "lyrefit/report/text_parts.h"
+#include "lyrefit/study/audit.h"
 #include "lyrefit/study/audit_evidence.h"
-#include "lyrefit/study/audit_report.h"
 #include "lyrefit/study/report/documents.h"
 
 namespace lyrefit {

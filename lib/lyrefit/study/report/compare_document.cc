@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "lyrefit/report/text_layout.h"
-#include "lyrefit/report/text_parts.h"
 #include "lyrefit/study/report/compare_parts.h"
 #include "lyrefit/study/report/documents.h"
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/certify/certify.h"
 #include "lyrefit/estimate/fit/usable.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"

@@ -9,7 +9,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/report/document.h"
-#include "lyrefit/study/audit_report.h"
+#include "lyrefit/study/audit.h"
 #include "lyrefit/study/comparison.h"
 
 namespace LYREFIT_PUBLIC lyrefit {

@@ -10,7 +10,7 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/curve/left_temperature.h"
+#include "lyrefit/curve/plausibility.h"
 
 namespace lyrefit {
 namespace {

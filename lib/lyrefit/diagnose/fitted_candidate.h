@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/diagnose/candidate.h"
+#include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/priors.h"
 #include "lyrefit/diagnose/weighted_data.h"
 

@@ -12,7 +12,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/expectation.h"
 #include "lyrefit/diagnose/reference_parts.h"
-#include "lyrefit/report/side_by_side.h"
+#include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/effects/dim_places.h"
 #include "lyrefit/effects/odd_cells.h"
 #include "lyrefit/effects/parts.h"
 

@@ -1,4 +1,4 @@
-#include "lyrefit/family/family_held_out.h"
+#include "lyrefit/family/refine_family.h"
 
 #include <fmt/format.h>
 

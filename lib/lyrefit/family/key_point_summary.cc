@@ -1,4 +1,4 @@
-#include "lyrefit/family/key_point_summary.h"
+#include "lyrefit/family/refine_family.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/sweep_order.h"

@@ -8,6 +8,7 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/label.h"
+#include "lyrefit/read/results_above.h"
 
 namespace lyrefit {
 namespace {

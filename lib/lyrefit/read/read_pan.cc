@@ -13,7 +13,6 @@
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/read/pan_object.h"
 
 namespace lyrefit {
 namespace {

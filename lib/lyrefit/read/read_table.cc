@@ -9,7 +9,7 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/equal_readings.h"
+#include "lyrefit/curve/plausibility.h"
 #include "lyrefit/read/join_sweeps.h"
 #include "lyrefit/read/records.h"
 #include "lyrefit/read/stated_results.h"

@@ -11,7 +11,7 @@
 #include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/equal_readings.h"
+#include "lyrefit/curve/plausibility.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/read_table.h"
 #include "lyrefit/read/rewrite_table.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/translate/extended_model.h"
 #include "lyrefit/translate/procedure_steps.h"
 
 namespace lyrefit {

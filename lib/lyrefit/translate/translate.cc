@@ -12,6 +12,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/plausibility.h"
+#include "lyrefit/translate/extended_model.h"
 #include "lyrefit/translate/key_point_noise.h"
 #include "lyrefit/translate/prepare.h"
 #include "lyrefit/translate/recommend.h"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/translate/extended_model.h"
 #include "lyrefit/translate/field_inputs.h"
 
 namespace lyrefit {

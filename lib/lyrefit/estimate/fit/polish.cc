@@ -8,6 +8,7 @@
 
 #include "lyrefit/estimate/refine/multistart.h"
 #include "lyrefit/estimate/refine/separable.h"
+#include "lyrefit/model/device_effects.h"
 
 namespace lyrefit {
 namespace {

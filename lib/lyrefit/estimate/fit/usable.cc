@@ -8,8 +8,8 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/dark.h"
-#include "lyrefit/curve/find_step.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/model/term.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/audit_evidence.h"

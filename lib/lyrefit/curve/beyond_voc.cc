@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/median.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <vector>
 
 #include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/model/effect.h"

@@ -11,12 +11,6 @@
 namespace lyrefit {
 namespace {
 
-std::string JoinWith(const std::vector<std::string>& parts, const std::string& separator) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : separator) + part;
-  return text;
-}
-
 std::string FitsHead(const std::vector<ParameterInfo>& parameters) {
   std::string line =
       "file,name,model,objective,cells_in_series,temperature_C,irradiance_Wm2,points";
@@ -64,7 +58,7 @@ std::vector<std::string> FitRow(const FittedFile& fit,
     fields.push_back(CsvField(rmse.solved_current_A));
   }
   fields.push_back(report.usable ? "true" : "false");
-  fields.push_back(CsvField(JoinWith(report.warnings, "; ")));
+  fields.push_back(CsvField(fmt::format("{}", fmt::join(report.warnings, "; "))));
   fields.push_back("");
   return fields;
 }

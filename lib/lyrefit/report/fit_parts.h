@@ -14,7 +14,7 @@
 
 namespace lyrefit {
 
-// fits_document.cc: parameters of the largest model; smaller models have the first of them.
+// Parameters of the largest model; smaller models have the first of them.
 std::vector<ParameterInfo> LargestModel(const std::vector<FittedFile>& fits);
 
 // Final value and standard error of the parameter with this symbol.

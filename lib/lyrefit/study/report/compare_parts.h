@@ -69,7 +69,7 @@ void AddSetUp(const Comparison& comparison, Section* section);
 // A section titled with the problem, with a field that describes the reference.
 Section ProblemSection(const Comparison& comparison, const ProblemResult& problem);
 
-// Defined in compare_ranks.cc: Friedman's and Wilcoxon's tests of one problem, and one sentence on
+// Friedman's and Wilcoxon's tests of one problem, and one sentence on
 // the ranking after the polish. Each has no blocks if there is no result.
 Section RankSection(const ProblemResult& problem);
 Section PolishVerdict(const ProblemResult& problem);

@@ -1,4 +1,4 @@
-#include "lyrefit/estimate/refine/model.h"
+#include "lyrefit/estimate/refine/reporting_model.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/observer.h"
-#include "lyrefit/estimate/refine/model.h"
+#include "lyrefit/estimate/refine/reporting_model.h"
 #include "lyrefit/family/family_model.h"
 #include "lyrefit/family/family_problem.h"
 #include "lyrefit/family/family_report.h"

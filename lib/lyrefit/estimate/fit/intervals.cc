@@ -6,9 +6,9 @@
 
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/coarsen.h"
-#include "lyrefit/estimate/refine/model.h"
 #include "lyrefit/estimate/refine/other_optima.h"
 #include "lyrefit/estimate/refine/profile.h"
+#include "lyrefit/estimate/refine/reporting_model.h"
 #include "lyrefit/model/reporting_units.h"
 
 namespace lyrefit {

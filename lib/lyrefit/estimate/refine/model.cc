@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "lyrefit/estimate/refine/reporting_model.h"
+
 namespace lyrefit {
 
 int ModelShape::locals() const {

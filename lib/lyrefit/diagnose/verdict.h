@@ -11,8 +11,6 @@
 
 namespace lyrefit {
 
-struct Selection;
-
 // Lack of fit of a fit beyond the noise: root mean square in fractions of Isc.
 Sized LeftBy(const WeightedData& weighted, const LawFit& fit);
 

@@ -31,7 +31,7 @@ list(REMOVE_ITEM depends "")
 list(JOIN files "|" files)
 set(LYREFIT_ASSET_SOURCE "${CMAKE_CURRENT_BINARY_DIR}/assets/page_assets.cc")
 add_custom_command(OUTPUT "${LYREFIT_ASSET_SOURCE}"
-  COMMAND ${CMAKE_COMMAND} "-DFILES=${files}" -DHEADER=lyrefit/report/page_assets.h "-DOUT=${LYREFIT_ASSET_SOURCE}"
+  COMMAND ${CMAKE_COMMAND} "-DFILES=${files}" -DHEADER=lyrefit/report/page_shell.h "-DOUT=${LYREFIT_ASSET_SOURCE}"
           -P "${PROJECT_SOURCE_DIR}/cmake/EmbedAssets.cmake"
   DEPENDS ${depends} "${PROJECT_SOURCE_DIR}/cmake/EmbedAssets.cmake"
   COMMENT "Embedding what pages need" VERBATIM)

@@ -1,8 +1,6 @@
 #include "flags.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/study/audit.h"
-#include "lyrefit/study/report/audit_csv.h"
-#include "lyrefit/study/report/audit_json.h"
 #include "lyrefit/study/report/documents.h"
 #include "verbs.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/base/quantile.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/batch/sparkline.h"
 #include "lyrefit/report/text_layout.h"
 #include "plant/plant_text.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lyrefit/base/append.h"
-#include "lyrefit/base/quantile.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/batch/column.h"
 #include "lyrefit/batch/pixel_state.h"
 #include "lyrefit/batch/row_text.h"

@@ -10,7 +10,7 @@
 
 #include "lyrefit/base/append.h"
 #include "lyrefit/base/constants.h"
-#include "lyrefit/batch/cause_columns.h"
+#include "lyrefit/batch/column.h"
 
 namespace lyrefit {
 namespace {

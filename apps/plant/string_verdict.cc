@@ -11,7 +11,7 @@
 #include "lyrefit/base/append.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/batch/cause_columns.h"
+#include "lyrefit/batch/column.h"
 #include "lyrefit/batch/string_pages.h"
 #include "lyrefit/report/text_parts.h"
 

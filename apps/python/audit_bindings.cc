@@ -5,8 +5,6 @@
 #include "errors.h"
 #include "frames.h"
 #include "lyrefit/study/audit.h"
-#include "lyrefit/study/report/audit_csv.h"
-#include "lyrefit/study/report/audit_json.h"
 #include "lyrefit/study/report/documents.h"
 #include "result.h"
 #include "work.h"

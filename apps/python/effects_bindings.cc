@@ -3,7 +3,6 @@
 #include "keywords.h"
 #include "lyrefit/cite/references.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/effects/read_effect_use.h"
 #include "lyrefit/estimate/fit/effect_text.h"
 
 namespace lyrefit::python {

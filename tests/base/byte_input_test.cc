@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "lyrefit/base/file.h"
-#include "lyrefit/base/stoppable_reads.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

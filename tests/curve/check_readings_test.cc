@@ -9,7 +9,7 @@
 
 #include "error_of.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/curve/left_temperature.h"
+#include "lyrefit/curve/plausibility.h"
 #include "synthetic_curve.h"
 
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/sweep_order.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

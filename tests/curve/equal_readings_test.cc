@@ -1,4 +1,4 @@
-#include "lyrefit/curve/equal_readings.h"
+#include "lyrefit/curve/plausibility.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

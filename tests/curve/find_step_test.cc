@@ -1,4 +1,4 @@
-#include "lyrefit/curve/find_step.h"
+#include "lyrefit/curve/beyond_voc.h"
 
 #include <gtest/gtest.h>
 

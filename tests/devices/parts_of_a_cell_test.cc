@@ -5,7 +5,6 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/devices/cell_figures.h"
-#include "lyrefit/devices/compare_stated.h"
 #include "lyrefit/devices/describe_sweep.h"
 #include "made_cell.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "diagnose/synthetic_diagnosis.h"
-#include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/measurement.h"
 
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/cause_text.h"
+#include "lyrefit/diagnose/describe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/law_coordinates.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/circumstances.h"
+#include "lyrefit/diagnose/known_effects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "diagnose/synthetic_diagnosis.h"
-#include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/law_coordinates.h"

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/held_out.h"
+#include "lyrefit/diagnose/describe.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-#include "lyrefit/diagnose/imitation.h"
 
 #include <gtest/gtest.h>
 

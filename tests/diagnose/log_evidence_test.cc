@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/log_evidence.h"
+#include "lyrefit/diagnose/fitted_candidate.h"
 
 #include <gtest/gtest.h>
 

@@ -16,8 +16,8 @@
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/diagnose/expectation.h"
 #include "lyrefit/diagnose/reference.h"
-#include "lyrefit/diagnose/sweep_state.h"
 #include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {

@@ -9,7 +9,7 @@
 
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/diagnose/sweep_state.h"
+#include "lyrefit/diagnose/expectation.h"
 #include "model/synthetic_curve.h"
 
 namespace lyrefit {
@@ -83,13 +83,14 @@ TEST(CompareWithReferences, NamesASeriesResistanceWithItsSizeAndItsPower) {
   EXPECT_EQ(cause.id, "series_resistance");
   // The change is relative to this sweep's own Rs. Its cells are warmer than those of the
   // references, so its voltages, and with them its Rs, are smaller.
-  EXPECT_NEAR(cause.size, 10.25, 1);
-  EXPECT_LT(cause.low_95, cause.size);
-  EXPECT_GT(cause.high_95, cause.size);
+  const CauseParameter& size = cause.strength.front();
+  EXPECT_NEAR(size.value, 10.25, 1);
+  EXPECT_LT(size.low_95, size.value);
+  EXPECT_GT(size.high_95, size.value);
   const double lost = FindKeyPoints(now.voltage_V, now.current_A).max_power_W /
                           FindKeyPoints(before.voltage_V, before.current_A).max_power_W -
                       1;
-  EXPECT_NEAR(cause.power, lost, 0.3 * std::fabs(lost));
+  EXPECT_NEAR(-cause.power_effect.value, lost, 0.3 * std::fabs(lost));
   EXPECT_THAT(c.sentence, HasSubstr("series resistance +"));
 }
 
@@ -98,8 +99,8 @@ TEST(CompareWithReferences, NamesALeak) {
   ASSERT_TRUE(c.differs);
   ASSERT_FALSE(c.causes.empty());
   EXPECT_EQ(c.causes.front().id, "shunt");
-  EXPECT_NEAR(c.causes.front().size, 2, 0.7);
-  EXPECT_LT(c.causes.front().power, -0.01);
+  EXPECT_NEAR(c.causes.front().strength.front().value, 2, 0.7);
+  EXPECT_GT(c.causes.front().power_effect.value, 0.01);
 }
 
 // Light that fades steadily takes current in proportion to the time, which only a fit of the whole
@@ -116,7 +117,7 @@ TEST(CompareWithReferences, NamesLightThatFades) {
   const auto drift = std::find_if(c.causes.begin(), c.causes.end(),
                                   [](const ReferenceCause& cause) { return cause.id == "drift"; });
   ASSERT_NE(drift, c.causes.end());
-  EXPECT_NEAR(drift->size, -2, 0.5);
+  EXPECT_NEAR(drift->strength.front().value, -2, 0.5);
 }
 
 TEST(CompareWithReferences, FewReferenceSweepsShowOnlyLargeDifferencesAndSaySo) {

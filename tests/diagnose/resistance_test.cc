@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/resistance.h"
+#include "lyrefit/diagnose/device_findings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -22,11 +22,8 @@ inline ReferenceComparison SampleReference() {
   ReferenceCause cause;
   cause.id = "series_resistance";
   cause.sentence = "series resistance +8 %, Pmax -0.62 %";
-  cause.size = 8;
-  cause.low_95 = 6.9;
-  cause.high_95 = 9.1;
-  cause.unit = "%";
-  cause.power = -0.0062;
+  cause.strength = {{"", "size", "%", 8, 6.9, 9.1}};
+  cause.power_effect.value = 0.0062;
   cause.explained = 0.97;
   c.causes = {cause};
   c.references.assign(12, "before");

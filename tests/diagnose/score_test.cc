@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/candidate.h"
+#include "lyrefit/diagnose/fit_effect.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/sweep_state.h"
+#include "lyrefit/diagnose/expectation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

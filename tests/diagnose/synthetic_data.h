@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/diagnose/candidate.h"
+#include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/weighted_data.h"

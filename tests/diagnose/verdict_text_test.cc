@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/verdict_text.h"
+#include "lyrefit/diagnose/verdict.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "effects/brute_module.h"
-#include "lyrefit/effects/dim_places.h"
+#include "lyrefit/effects/odd_cells.h"
 
 namespace lyrefit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lyrefit/effects/read_effect_use.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/fit.h"
 
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/effects/unlike_substrings.h"
+#include "lyrefit/effects/odd_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/study/algorithms.h"
-#include "lyrefit/study/report/compare_plot.h"
+#include "lyrefit/study/report/documents.h"
 #include "pagmo_searcher.h"
 #include "paper/budget_figure.h"
 #include "paper/corner_page.h"

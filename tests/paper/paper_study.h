@@ -7,7 +7,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/study/audit_report.h"
+#include "lyrefit/study/audit.h"
 #include "lyrefit/study/comparison.h"
 #include "paper/published.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/base/descriptor.h"
 #include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/new_file.h"
 #include "lyrefit/certify/certify_options.h"
 #include "lyrefit/curve/iv_curve.h"
 

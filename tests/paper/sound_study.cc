@@ -6,7 +6,7 @@
 #include <fstream>
 #include <optional>
 
-#include "lyrefit/base/largest.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/curve/find_step.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/read_curve_set.h"

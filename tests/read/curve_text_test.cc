@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "lyrefit/base/stoppable_reads.h"
+#include "lyrefit/base/file.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/read_curve_set.h"

@@ -1,4 +1,4 @@
-#include "lyrefit/read/register_dump.h"
+#include "lyrefit/read/rewrite_table.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "lyrefit/search/crowding.h"
+#include "lyrefit/search/run.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

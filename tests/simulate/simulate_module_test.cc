@@ -5,7 +5,7 @@
 
 #include "error_of.h"
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/effects/read_effect_use.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/read/read_pan.h"
 #include "read/pan_text.h"

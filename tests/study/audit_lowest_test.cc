@@ -7,8 +7,8 @@
 
 #include "audit_rows_text.h"
 #include "lyrefit/study/audit.h"
+#include "lyrefit/study/audit_evidence.h"
 #include "lyrefit/study/audit_lowest.h"
-#include "lyrefit/study/audit_sentence.h"
 #include "repeats.h"
 
 namespace lyrefit {

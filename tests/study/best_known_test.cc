@@ -1,4 +1,4 @@
-#include "lyrefit/study/best_known.h"
+#include "lyrefit/study/reference.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

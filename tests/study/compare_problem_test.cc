@@ -8,7 +8,7 @@
 #include "json_keys.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/study/problem_summary.h"
-#include "lyrefit/study/report/compare_json.h"
+#include "lyrefit/study/report/documents.h"
 #include "summary_study.h"
 #include "temp_folder.h"
 

@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "lyrefit/search/search.h"
-#include "lyrefit/study/report/compare_json.h"
 #include "lyrefit/study/report/documents.h"
 #include "small_study.h"
 

@@ -1,4 +1,4 @@
-#include "lyrefit/study/problem_ranks.h"
+#include "lyrefit/study/problem_summary.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,6 @@
 
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/study/algorithms.h"
-#include "lyrefit/study/report/compare_json.h"
 #include "lyrefit/study/report/documents.h"
 #include "repeats.h"
 

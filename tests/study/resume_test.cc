@@ -5,7 +5,7 @@
 
 #include "../file_limit.h"
 #include "json_keys.h"
-#include "lyrefit/study/report/compare_json.h"
+#include "lyrefit/study/report/documents.h"
 #include "small_study.h"
 #include "temp_folder.h"
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/observer.h"
-#include "lyrefit/base/stoppable_reads.h"
 
 namespace lyrefit {
 

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "lyrefit/base/file.h"
-#include "lyrefit/report/readable.h"
+#include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <iterator>
-#include <utility>
 #include <vector>
 
 namespace lyrefit {

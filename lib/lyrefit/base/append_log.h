@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "lyrefit/base/descriptor.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/new_file.h"
 
 namespace lyrefit {
 

@@ -7,9 +7,8 @@
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
-#include <utility>
 
-#include "lyrefit/base/stoppable_reads.h"
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 
 namespace lyrefit {

@@ -1,4 +1,5 @@
 #pragma once
+// Order statistics, and statistics that outliers hardly affect.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 
 #include "lyrefit/base/numbers.h"
 
-// Statistics that outliers hardly affect.
 namespace lyrefit {
 
 // The middle value, or the mean of the two middle values for an even number; NaN for an empty
@@ -43,5 +43,21 @@ inline double RobustScale(std::vector<double> values,
 
 // Huber's weight of a residual of absolute value `size`: residuals beyond `limit` count less.
 inline double HuberWeight(double size, double limit) { return size > limit ? limit / size : 1; }
+
+// The value below which a share of the sorted values lies, interpolated linearly between them. There
+// must be one at least.
+inline double Quantile(const std::vector<double>& sorted, double share) {
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto low = static_cast<std::size_t>(place);
+  const std::size_t high = std::min(low + 1, sorted.size() - 1);
+  return sorted[low] + (place - static_cast<double>(low)) * (sorted[high] - sorted[low]);
+}
+
+// The largest absolute value; 0 for an empty vector. NaN is ignored.
+inline double LargestMagnitude(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::fabs(value));
+  return largest;
+}
 
 }  // namespace lyrefit

@@ -49,7 +49,7 @@ struct BatchCounts {
   std::map<std::string, std::int64_t> zones;     // number of rows for each zone of a field test
   // Number of rows for each cause, if the task reports causes.
   std::map<std::string, std::int64_t> causes;
-  // Number of rows for each subject of a cause; see AboutOf.
+  // Number of rows for each subject of a cause; see Effect::where.
   std::map<std::string, std::int64_t> abouts;
   // Reasons with all numbers replaced by "N". Reasons beyond kMostReasons are counted together.
   std::map<std::string, ReasonCount> reasons;

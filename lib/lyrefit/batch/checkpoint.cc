@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <utility>
-
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/json_text.h"
 

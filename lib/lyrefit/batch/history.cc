@@ -1,13 +1,10 @@
 #include "lyrefit/batch/history.h"
 
-#include <fmt/format.h>
-
 #include <map>
 #include <utility>
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/addition.h"
-#include "lyrefit/diagnose/reference.h"
 
 namespace lyrefit {
 

@@ -10,7 +10,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/batch/batch_options.h"
 #include "lyrefit/batch/batch_task.h"
-#include "lyrefit/diagnose/reference_options.h"
+#include "lyrefit/diagnose/reference.h"
 #include "lyrefit/stream/batch_source.h"
 
 namespace LYREFIT_PUBLIC lyrefit {

@@ -6,12 +6,11 @@
 #include <deque>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "lyrefit/base/stoppable_reads.h"
+#include "lyrefit/base/file.h"
 
 namespace lyrefit {
 namespace {

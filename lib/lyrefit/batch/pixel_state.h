@@ -1,11 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "lyrefit/base/enum_text.h"
-#include "lyrefit/batch/pixel_options.h"
+#include "lyrefit/batch/batch_task.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/devices/cell_report.h"
 

@@ -12,8 +12,6 @@
 #include "lyrefit/batch/checkpoint.h"
 #include "lyrefit/batch/column.h"
 #include "lyrefit/curve/date_time.h"
-#include "lyrefit/report/documents.h"
-#include "lyrefit/report/json.h"
 #include "lyrefit/trend/trend.h"
 #include "lyrefit/trend/trend_documents.h"
 

@@ -1,11 +1,7 @@
 #include "lyrefit/batch/write_results.h"
 
-#include <fmt/format.h>
-
 #include <deque>
 #include <filesystem>
-#include <fstream>
-#include <optional>
 #include <system_error>
 #include <utility>
 

@@ -6,8 +6,6 @@
 #include "lyrefit/certify/certificate_documents.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/estimate/fit/usable.h"
-#include "lyrefit/report/documents.h"
-#include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/certify/interval.h"
 #include "lyrefit/certify/real_data.h"
 
 namespace lyrefit {

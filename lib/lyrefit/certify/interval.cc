@@ -1,6 +1,5 @@
 #include "lyrefit/certify/interval.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "lyrefit/certify/correlation.h"
 #include "lyrefit/certify/real_data.h"

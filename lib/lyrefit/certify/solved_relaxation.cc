@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "lyrefit/certify/mixture.h"
-#include "lyrefit/certify/relaxation.h"
 #include "lyrefit/certify/solved_part.h"
 
 namespace lyrefit {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/certify/mixture.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
 

@@ -6,16 +6,13 @@
 #include <cmath>
 #include <map>
 
-#include "lyrefit/base/largest.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/dark.h"
-#include "lyrefit/curve/equal_readings.h"
-#include "lyrefit/curve/examined_readings.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/curve/left_temperature.h"
 #include "lyrefit/curve/plausibility.h"
+#include "lyrefit/curve/sweep_order.h"
 
 namespace lyrefit {
 namespace {

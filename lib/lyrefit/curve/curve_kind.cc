@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/base/largest.h"
 #include "lyrefit/base/median.h"
 
 namespace lyrefit {

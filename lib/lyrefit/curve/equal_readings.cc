@@ -1,4 +1,4 @@
-#include "lyrefit/curve/equal_readings.h"
+#include "lyrefit/curve/plausibility.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "lyrefit/base/largest.h"
 #include "lyrefit/base/median.h"
 
 namespace lyrefit {

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/plausibility.h"
 
 namespace lyrefit {
 namespace {
@@ -133,6 +136,44 @@ Expected<void> Validate(const IvCurve& curve) {
                             sigma - curve.sigma_A.begin() + 1, *sigma));
   }
   return CheckConditions(curve.conditions);
+}
+
+CurveSet SetOfOne(IvCurve curve) {
+  CurveSet set;
+  set.name = curve.name;
+  set.source = curve.source;
+  set.curves.push_back(std::move(curve));
+  return set;
+}
+
+void Forget(About about, std::vector<Assumption>* assumptions) {
+  const auto concerned = [about](const Assumption& one) { return one.about == about; };
+  assumptions->erase(std::remove_if(assumptions->begin(), assumptions->end(), concerned),
+                     assumptions->end());
+}
+
+std::vector<std::string> SentencesOf(const std::vector<Assumption>& assumptions) {
+  std::vector<std::string> sentences;
+  sentences.reserve(assumptions.size());
+  for (const Assumption& one : assumptions) sentences.push_back(one.sentence);
+  return sentences;
+}
+
+namespace {
+
+constexpr char kLeftEnd[] = " speaks of a temperature, not clearly of the cells: not used";
+
+}  // namespace
+
+Assumption LeftTemperature(const std::string& line) {
+  return {line + kLeftEnd, About::kTemperature};
+}
+
+bool IsLeftTemperature(const Assumption& assumption) {
+  const std::string& sentence = assumption.sentence;
+  const std::string end = kLeftEnd;
+  return assumption.about == About::kTemperature && sentence.size() >= end.size() &&
+         sentence.compare(sentence.size() - end.size(), end.size(), end) == 0;
 }
 
 }  // namespace lyrefit

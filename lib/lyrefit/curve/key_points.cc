@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "lyrefit/base/numbers.h"
-
 namespace lyrefit {
 namespace {
 

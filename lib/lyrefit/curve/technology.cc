@@ -1,6 +1,5 @@
 #include "lyrefit/curve/technology.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <string_view>

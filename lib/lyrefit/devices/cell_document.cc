@@ -5,7 +5,6 @@
 
 #include "lyrefit/devices/cell_parts.h"
 #include "lyrefit/devices/device_documents.h"
-#include "lyrefit/report/documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "lyrefit/base/dense.h"
 #include "lyrefit/base/dual.h"
 #include "lyrefit/estimate/refine/problem.h"
 #include "lyrefit/model/model_points.h"

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "lyrefit/devices/cell_parts.h"
 #include "lyrefit/devices/device_documents.h"
 #include "lyrefit/report/csv.h"

@@ -6,7 +6,6 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/devices/cell_parts.h"
 #include "lyrefit/devices/device_documents.h"
-#include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {

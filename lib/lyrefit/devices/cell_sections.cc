@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/devices/cell_parts.h"
-#include "lyrefit/report/estimate_parts.h"
+#include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -1,7 +1,9 @@
-#include "lyrefit/devices/choose_sweeps.h"
-
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "lyrefit/devices/describe_sweep.h"
+#include "lyrefit/read/stated_results.h"
 
 namespace lyrefit {
 namespace {
@@ -65,6 +67,83 @@ std::vector<int> BrightestSweeps(const CellReport& report) {
     }
   }
   return brightest;
+}
+
+namespace {
+
+// A quantity that files state, in V, A, W or as a fraction.
+struct Quantity {
+  std::vector<std::string> names;
+  double value = kUnknown;     // in the base unit
+  double per_area = kUnknown;  // over the area in cm2
+};
+
+std::vector<Quantity> QuantitiesOf(const CellSweep& sweep, double area_cm2) {
+  const KeyPoints& key = sweep.key;
+  const auto over_area = [&](double value) { return value / area_cm2; };
+  const double isc = key.short_circuit_current_A, imp = key.max_power_current_A;
+  return {{{"isc", "jsc"}, isc, over_area(isc)},
+          {{"voc"}, key.open_circuit_voltage_V},
+          {{"imp", "impp", "jmp", "jmpp"}, imp, over_area(imp)},
+          {{"vmp", "vmpp", "umpp"}, key.max_power_voltage_V},
+          {{"pmp", "pmpp", "pmax", "mpp"}, key.max_power_W, over_area(key.max_power_W)},
+          {{"ff", "fillfactor"}, key.fill_factor},
+          {{"eff", "efficiency", "pce"}, sweep.efficiency}};
+}
+
+// A unit: its factor from the base unit, and whether it is per area.
+struct StatedUnit {
+  const char* text;
+  double factor;
+  bool per_area;
+};
+
+constexpr StatedUnit kStatedUnits[] = {
+    {"v", 1, false},     {"mv", 1e3, false},     {"a", 1, false},      {"ma", 1e3, false},
+    {"acm2", 1, true},   {"macm2", 1e3, true},   {"am2", 1e4, true},   {"w", 1, false},
+    {"mw", 1e3, false},  {"wcm2", 1, true},      {"mwcm2", 1e3, true}, {"wm2", 1e4, true},
+    {"pct", 100, false}, {"percent", 100, false}};
+
+// Largest difference in ln of a stated density from a reading that is one.
+constexpr double kReadingsAreDensities = 0.1;
+
+// The value of the quantity in the unit of the label. Without a unit: that of the usual ones which
+// is nearest to the stated value.
+double FoundIn(const Quantity& quantity, const std::string& unit, double stated) {
+  for (const StatedUnit& one : kStatedUnits) {
+    if (unit == one.text) return one.factor * (one.per_area ? quantity.per_area : quantity.value);
+  }
+  double nearest = kUnknown;
+  for (const double value :
+       {quantity.value, 100 * quantity.value, 1e3 * quantity.value, 1e3 * quantity.per_area}) {
+    if (!std::isfinite(value)) continue;
+    const double away = std::fabs(std::log(std::fabs(stated / value)));
+    if (!(away >= std::fabs(std::log(std::fabs(stated / nearest))))) nearest = value;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<StatedKeyPoint> CompareStated(const std::vector<StatedResult>& results,
+                                          const CellSweep& sweep, double area_cm2) {
+  std::vector<StatedKeyPoint> found;
+  if (sweep.kind != SweepKind::kLit) return found;
+  for (const StatedResult& result : results) {
+    const std::string name = ResultName(result.label);
+    for (const Quantity& quantity : QuantitiesOf(sweep, area_cm2)) {
+      if (std::find(quantity.names.begin(), quantity.names.end(), name) == quantity.names.end()) {
+        continue;
+      }
+      const double stated = std::fabs(result.value);
+      const double value = FoundIn(quantity, ResultUnit(result.label), stated);
+      // Without an area a density is comparable only if the readings are densities too.
+      const bool density = name.front() == 'j' && !std::isfinite(area_cm2);
+      if (density && std::fabs(std::log(stated / value)) > kReadingsAreDensities) continue;
+      if (std::isfinite(value)) found.push_back({result.label, stated, value, result.source});
+    }
+  }
+  return found;
 }
 
 }  // namespace lyrefit

@@ -4,18 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lyrefit/base/append.h"
-#include "lyrefit/base/constants.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/data_sheet_values.h"
 #include "lyrefit/curve/technology.h"
-#include "lyrefit/devices/family_of_sheet.h"
+#include "lyrefit/devices/data_sheet_parts.h"
 #include "lyrefit/family/key_point_solver.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

@@ -11,7 +11,6 @@
 #include "lyrefit/devices/data_sheet_parts.h"
 #include "lyrefit/devices/device_documents.h"
 #include "lyrefit/report/csv.h"
-#include "lyrefit/report/documents.h"
 #include "lyrefit/report/json_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"

@@ -9,7 +9,7 @@
 #include "lyrefit/base/roots.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/data_sheet_values.h"
-#include "lyrefit/devices/family_of_sheet.h"
+#include "lyrefit/devices/data_sheet_parts.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
 

@@ -8,7 +8,6 @@
 #include "lyrefit/devices/data_sheet_parts.h"
 #include "lyrefit/devices/device_documents.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {

@@ -12,7 +12,6 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/devices/cell_figures.h"
 #include "lyrefit/devices/cell_parts.h"
-#include "lyrefit/devices/choose_sweeps.h"
 #include "lyrefit/devices/describe_sweep.h"
 #include "lyrefit/devices/joint_estimate.h"
 #include "lyrefit/devices/joint_problem.h"

@@ -9,7 +9,6 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/sweep_order.h"
-#include "lyrefit/devices/compare_stated.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/statistics.h"
 

@@ -49,4 +49,29 @@ struct AcceptedSweeps {
 // Leaves out the sweeps whose readings allow no figures. Error: all are left out.
 Expected<AcceptedSweeps> LeaveOutRefused(std::vector<MeasuredSweep> measured);
 
+// The results that a file states for a sweep, beside the figures of the sweep in the same units.
+// Results of other quantities, such as resistances, whose definitions differ, are left out.
+// `area_cm2` may be NaN. A voltage or a power without a unit is in V and mW/cm2, or in mV and mW
+// where those are nearer.
+std::vector<StatedKeyPoint> CompareStated(const std::vector<StatedResult>& results,
+                                          const CellSweep& sweep, double area_cm2);
+
+// Which sweeps of a cell a figure is made of. Results are positions in CellReport::sweeps.
+
+// Isc of a sweep that passes 0 V; else NaN.
+double ReachedIsc(const CellSweep& sweep);
+
+// Brightest lit sweep, of equals the first; -1: none is lit.
+int BrightestOf(const std::vector<CellSweep>& sweeps);
+
+// First sweep of this kind, one of the direction of `like` before others; -1: none.
+int FindSweep(const CellReport& report, SweepKind kind, const CellSweep& like);
+
+// Lit sweeps of the direction of `main`, one a light, the brightest first. Those count that `isc_of`
+// gives an Isc.
+std::vector<int> LightsOf(const CellReport& report, double (*isc_of)(const CellSweep&));
+
+// Lit sweeps of the light of `main`, of both directions.
+std::vector<int> BrightestSweeps(const CellReport& report);
+
 }  // namespace lyrefit

@@ -7,7 +7,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/devices/cell_report.h"
 #include "lyrefit/devices/data_sheet.h"
-#include "lyrefit/devices/two_junction_report.h"
+#include "lyrefit/devices/fit_two_junctions.h"
 #include "lyrefit/report/document.h"
 #include "lyrefit/report/figure.h"
 

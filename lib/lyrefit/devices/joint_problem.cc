@@ -1,7 +1,5 @@
 #include "lyrefit/devices/joint_problem.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,8 +9,6 @@
 #include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/coordinates.h"
-#include "lyrefit/model/kernel.h"
-#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

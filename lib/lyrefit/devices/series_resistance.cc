@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "lyrefit/base/roots.h"
-#include "lyrefit/devices/describe_sweep.h"
 
 namespace lyrefit {
 namespace {

@@ -5,12 +5,10 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/devices/device_documents.h"
-#include "lyrefit/devices/two_junction_report.h"
+#include "lyrefit/devices/fit_two_junctions.h"
 #include "lyrefit/model/two_junctions.h"
-#include "lyrefit/report/documents.h"
-#include "lyrefit/report/estimate_parts.h"
+#include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/json_parts.h"
-#include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -1,7 +1,6 @@
 #include "lyrefit/devices/two_junction_problem.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace lyrefit {

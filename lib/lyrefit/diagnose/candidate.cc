@@ -1,5 +1,5 @@
 // Optimized fully: it runs once for each candidate.
-#include "lyrefit/diagnose/candidate.h"
+#include "lyrefit/diagnose/fit_effect.h"
 
 #include <glog/logging.h>
 

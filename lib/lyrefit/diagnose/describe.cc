@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/diagnose/known_effects.h"

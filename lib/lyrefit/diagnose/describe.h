@@ -1,14 +1,48 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/diagnose/held_out.h"
+#include "lyrefit/diagnose/select.h"
+#include "lyrefit/diagnose/weighted_data.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 
 namespace lyrefit {
+
+// Assigns readings to folds that are left out together. With three or more sweeps (curves, or up
+// and down sweeps within them) a fold holds whole sweeps, else short contiguous blocks spread over
+// the sweep. Returns one fold per reading, 0 .. folds - 1.
+std::vector<int> MakeFolds(const Readings& readings, int folds);
+
+// Whether MakeFolds leaves out whole sweeps.
+bool LeavesSweepsOut(const Readings& readings);
+
+// Errors on readings that were not fitted, in ampere.
+struct HeldOutErrors {
+  double before_A = kUnknown;  // of the base model
+  double after_A = kUnknown;   // of the whole selection, repeated
+  double gain_A2 = kUnknown;   // mean difference of squares over the folds
+  double gain_error_A2 = kUnknown;
+  int folds = 0;                            // whose fits succeeded
+  bool by_sweeps = false;                   // the folds were whole sweeps
+  std::map<std::string, double> effects_A;  // of each effect tried, by its id; some may be missing
+
+  // Whether the gain is larger than its standard error.
+  bool gained() const { return folds > 1 && gain_A2 > gain_error_A2; }
+};
+
+// For every fold, the base model, each effect and the whole selection are fitted without the fold
+// and evaluated on it. No folds after a stop request.
+HeldOutErrors MeasureHeldOut(const Measurement& measurement, const SelectOptions& options,
+                             const Selection& selection, int folds, int threads);
 
 // Parameters of effect `index` of a fit in reporting units, with symmetric 95 % intervals cut at
 // the bounds.
@@ -43,5 +77,17 @@ std::vector<Cause> DescribeBelow(const Selection& selection);
 
 // Base parameters and maximum power of the device, with and without the causes.
 std::vector<ParameterShift> DescribeShifts(const Selection& selection);
+
+// Size of effect number `index` of a fit for a technician: in the effect's own words
+// (Effect::in_words), else the largest change of the current. `strength`: its parameters as reported,
+// whose intervals are repeated.
+std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit, int index,
+                                 const std::vector<CauseParameter>& strength);
+
+// The extended law as a FitReport: base parameters in pvlib's units, then those of the causes. With
+// `search`, the modified lyrebird optimizer searches the box of the whole law, and its best
+// candidate is polished as well. A random search of the same budget is run for comparison.
+FitReport ExtendedReport(const CurveSet& set, const Selection& selection, const AtReadings& at,
+                         bool search, std::uint64_t seed, const Observer& observer);
 
 }  // namespace lyrefit

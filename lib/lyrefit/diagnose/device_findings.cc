@@ -7,9 +7,8 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/curve/technology.h"
-#include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/law_coordinates.h"
-#include "lyrefit/diagnose/verdict_text.h"
+#include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/fit/usable.h"

@@ -1,8 +1,6 @@
 #include "lyrefit/diagnose/diagnose.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
@@ -14,22 +12,15 @@
 #include "lyrefit/curve/curve_kind.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/average.h"
-#include "lyrefit/diagnose/choose_base.h"
-#include "lyrefit/diagnose/circumstances.h"
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/device_findings.h"
-#include "lyrefit/diagnose/evidence.h"
-#include "lyrefit/diagnose/extended_report.h"
-#include "lyrefit/diagnose/fill_factor.h"
-#include "lyrefit/diagnose/held_out.h"
 #include "lyrefit/diagnose/known_effects.h"
+#include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
-#include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/read/cells.h"
 

@@ -5,7 +5,6 @@
 
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/diagnosis_parts.h"
-#include "lyrefit/report/documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -44,14 +44,6 @@ DeviceTerms DeviceTermsOf(const LawFit& fit) {
   return DeviceTermsOf(fit, [](int) { return true; });
 }
 
-// Without Rs and the effects that are resistances.
-DeviceTerms WithoutResistance(const LawFit& fit) {
-  DeviceTerms terms = DeviceTermsOf(fit, [&fit](int e) { return !fit.law.effects[e]->resistance; });
-  terms.p[kRs] = 0;
-  terms.of[kRs] = -1;
-  return terms;
-}
-
 // In current scales and V per cell.
 struct PowerPoint {
   double voltage = kUnknown;
@@ -184,10 +176,6 @@ PowerGain GainWithout(const WeightedData& weighted, const LawFit& fit, int index
 
 PowerGain GainWithoutEffects(const WeightedData& weighted, const LawFit& fit) {
   return GainTo(weighted, fit, DeviceTermsOf(fit, [](int) { return false; }));
-}
-
-PowerGain GainWithoutResistance(const WeightedData& weighted, const LawFit& fit) {
-  return GainTo(weighted, fit, WithoutResistance(fit));
 }
 
 KeyPoints DeviceKeyPoints(const WeightedData& weighted, const LawFit& fit) {

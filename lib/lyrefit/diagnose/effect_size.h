@@ -37,8 +37,6 @@ struct PowerGain {
 // Of the device without effect number `index`, or without all of its device effects.
 PowerGain GainWithout(const WeightedData& weighted, const LawFit& fit, int index);
 PowerGain GainWithoutEffects(const WeightedData& weighted, const LawFit& fit);
-// Of the device without any series resistance.
-PowerGain GainWithoutResistance(const WeightedData& weighted, const LawFit& fit);
 
 // Key points of the device alone under the brightest light, in V, A and W.
 KeyPoints DeviceKeyPoints(const WeightedData& weighted, const LawFit& fit);

@@ -1,5 +1,3 @@
-#include "lyrefit/diagnose/fill_factor.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,14 +9,12 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/curve/technology.h"
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/device_findings.h"
 #include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/diagnose/resistance.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {

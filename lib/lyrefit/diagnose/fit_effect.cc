@@ -5,7 +5,6 @@
 #include <set>
 #include <utility>
 
-#include "lyrefit/diagnose/imitation.h"
 #include "lyrefit/estimate/refine/multistart.h"
 
 namespace lyrefit {

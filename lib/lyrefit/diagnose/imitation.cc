@@ -1,9 +1,8 @@
-#include "lyrefit/diagnose/imitation.h"
+#include "lyrefit/diagnose/fit_effect.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <vector>
 
 #include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/model/effect.h"

@@ -1,10 +1,9 @@
 // Optimized fully: it runs once for each candidate.
-#include "lyrefit/diagnose/log_evidence.h"
+#include "lyrefit/diagnose/fitted_candidate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/diagnose/decision_constants.h"

@@ -9,12 +9,10 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/expectation.h"
-#include "lyrefit/diagnose/reference_causes.h"
-#include "lyrefit/diagnose/reference_rows.h"
-#include "lyrefit/report/side_by_side.h"
+#include "lyrefit/diagnose/reference_parts.h"
+#include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {
 namespace {

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/reference_causes.h"
+#include "lyrefit/diagnose/reference_parts.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +17,18 @@
 
 namespace lyrefit {
 namespace {
+
+// `power`: relative change of Pmax.
+ReferenceCause CauseWith(const std::string& id, const std::string& sentence, const Sized& size,
+                         const char* unit, double power, double explained) {
+  ReferenceCause cause;
+  cause.id = id;
+  cause.sentence = sentence;
+  cause.strength = {{"", "size", unit, size.value, size.low_95, size.high_95}};
+  cause.power_effect.value = -power;
+  cause.explained = explained;
+  return cause;
+}
 
 // A dose of a possible change of a module: a coordinate of the base raised, or an effect.
 struct Dose {
@@ -225,16 +237,15 @@ std::optional<Attempt> TryFrom(const Puzzle& puzzle, const Dose& dose, double do
   Attempt attempt;
   attempt.generic = dose.id == "drift";
   attempt.left = left.dot(Times(puzzle.precision, left)) / puzzle.widening;
-  ReferenceCause& cause = attempt.cause;
-  cause.id = dose.id;
-  cause.size = InPercent(dose, doses * dose.percent);
-  cause.low_95 = InPercent(dose, doses * dose.percent - error);
-  cause.high_95 = InPercent(dose, doses * dose.percent + error);
-  cause.unit = "%";
-  cause.power = PowerOf(puzzle.sweep, change);
-  cause.explained = 1 - attempt.left * puzzle.widening / all;
-  cause.sentence = fmt::format(fmt::runtime(dose.words), cause.size) +
-                   fmt::format(", Pmax {:+.2f} %", 100 * cause.power);
+  const double percent = doses * dose.percent;
+  const Sized size = {InPercent(dose, percent), InPercent(dose, percent - error),
+                      InPercent(dose, percent + error)};
+  const double power = PowerOf(puzzle.sweep, change);
+  attempt.cause = CauseWith(dose.id,
+                            fmt::format(fmt::runtime(dose.words), size.value) +
+                                fmt::format(", Pmax {:+.2f} %", 100 * power),
+                            size, "%", power, 1 - attempt.left * puzzle.widening / all);
+  attempt.cause.effect = dose.effect;
   return attempt;
 }
 
@@ -245,6 +256,12 @@ void Try(const Puzzle& puzzle, const Dose& dose, std::vector<Attempt>* attempts)
     if (less && (!best || less->left < best->left)) best = std::move(less);
   }
   if (best) attempts->push_back(std::move(*best));
+}
+
+// What a quantity is above its expected value, in parts of `unit`.
+Sized Change(const ReferenceRow& row, double unit) {
+  return {(row.now - row.expected) / unit, (row.now - row.high_95) / unit,
+          (row.now - row.low_95) / unit};
 }
 
 }  // namespace
@@ -284,10 +301,7 @@ std::vector<ReferenceCause> ExplainKeyPoints(const std::vector<ReferenceRow>& ro
   const auto less = [](const ReferenceRow& row) { return row.differs && row.z < 0; };
   std::vector<ReferenceCause> causes;
   const auto add = [&](const char* id, const std::string& sentence, const ReferenceRow& row) {
-    const double whole = row.expected / 100;
-    causes.push_back({id, sentence, (row.now - row.expected) / whole,
-                      (row.now - row.high_95) / whole, (row.now - row.low_95) / whole, "%",
-                      row.power, 1});
+    causes.push_back(CauseWith(id, sentence, Change(row, row.expected / 100), "%", row.power, 1));
   };
   const double warmer_K = -voltage.power / kPerKelvin;
   const bool leaks = leak.differs && leak.z > 0;
@@ -322,14 +336,14 @@ std::vector<ReferenceCause> ExplainKeyPoints(const std::vector<ReferenceRow>& ro
     const bool first = light.power > voltage.power;
     causes.insert(
         first ? causes.begin() : causes.end(),
-        {"shunt",
-         fmt::format(
-             "a slope as of a leak that takes {:.2g} % of Isc at Voc, {:.2g} % is expected: "
-             "of many cells potential-induced shunting (PID-s), or cells that give unlike "
-             "currents",
-             leak.now, std::max(leak.expected, 0.0)),
-         leak.now - leak.expected, leak.now - leak.high_95, leak.now - leak.low_95, "% of Isc",
-         rows[2].power, 1});
+        CauseWith(
+            "shunt",
+            fmt::format(
+                "a slope as of a leak that takes {:.2g} % of Isc at Voc, {:.2g} % is expected: "
+                "of many cells potential-induced shunting (PID-s), or cells that give unlike "
+                "currents",
+                leak.now, std::max(leak.expected, 0.0)),
+            Change(leak, 1), "% of Isc", rows[2].power, 1));
   }
   return causes;
 }

@@ -5,7 +5,6 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/reference.h"
-#include "lyrefit/report/documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -47,9 +46,10 @@ Section CauseSection(const ReferenceComparison& comparison) {
   if (comparison.causes.empty()) return section;
   block::Table table = {"lrlrr", {{"cause", "size", "95 % interval", "Pmax", "explains"}}};
   for (const ReferenceCause& cause : comparison.causes) {
-    table.rows.push_back({cause.id, fmt::format("{} {}", Significant(cause.size, 3), cause.unit),
-                          Range(cause.low_95, cause.high_95),
-                          fmt::format("{:+.2f} %", 100 * cause.power),
+    const CauseParameter& size = cause.strength.front();
+    table.rows.push_back({cause.id, fmt::format("{} {}", Significant(size.value, 3), size.unit),
+                          Range(size.low_95, size.high_95),
+                          fmt::format("{:+.2f} %", -100 * cause.power_effect.value),
                           fmt::format("{:.0f} %", 100 * cause.explained)});
   }
   AddTable(std::move(table), &section);

@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/reference_rows.h"
+#include "lyrefit/diagnose/reference_parts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,3 @@
-#include "lyrefit/diagnose/resistance.h"
 
 #include <fmt/format.h>
 

@@ -5,11 +5,11 @@
 #include <set>
 #include <utility>
 
-#include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/fit_effect.h"
+#include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/selection_state.h"
-#include "lyrefit/diagnose/verdict_text.h"
+#include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {

@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/describe.h"
-#include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {

@@ -10,7 +10,6 @@
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/model/default_values.h"
-#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 namespace {

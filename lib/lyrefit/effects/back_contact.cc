@@ -1,5 +1,4 @@
-#include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/parts.h"
 
 namespace lyrefit {
 namespace {

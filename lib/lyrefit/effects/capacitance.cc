@@ -1,7 +1,6 @@
 #include <type_traits>
 
-#include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/parts.h"
 
 namespace lyrefit {
 

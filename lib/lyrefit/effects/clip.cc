@@ -1,9 +1,7 @@
 #include <algorithm>
 
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/needs.h"
-#include "lyrefit/effects/phrases.h"
+#include "lyrefit/effects/parts.h"
 
 namespace lyrefit {
 

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/dim_places.h"
-#include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
-#include "lyrefit/effects/phrases.h"
+#include "lyrefit/effects/parts.h"
 
 namespace lyrefit {
 namespace {

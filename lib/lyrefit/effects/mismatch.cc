@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
-#include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/needs.h"
-#include "lyrefit/effects/phrases.h"
+#include "lyrefit/effects/parts.h"
 
 namespace lyrefit {
 

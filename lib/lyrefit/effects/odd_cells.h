@@ -1,8 +1,34 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "lyrefit/effects/fitted_effect.h"
+#include "lyrefit/model/curve_shape.h"
+#include "lyrefit/model/reading.h"
 
 namespace lyrefit {
+
+// A guess of where dim cells are, and of how they conduct in reverse.
+struct DimPlaces {
+  std::vector<int> places;  // the substring of each cell, from 0
+  int chains = 1;           // parallel chains of a substring, of which one has the dim cells
+  double soft_voltage = 0;  // of the soft reverse law, V
+  double exponent = 0;
+  double area = 0;  // between the rough curve of the guess and the measured one
+};
+
+// Deficits of light from the plateaus of a curve below the first, largest first, at most `most`.
+// Without plateaus: from the currents at some places. Half of a single deficit is a second one.
+std::vector<double> PlateauDeficits(const CurveShape& shape, int most);
+
+// The guesses whose rough curves are nearest to the measured one, nearest first, at most `most`.
+// The rough curve adds the voltages of the cells: a logarithm for a cell whose light suffices, the
+// reverse law for others, and a constant drop for a bypass diode. `substrings`: the largest number
+// of substrings with dim cells.
+std::vector<DimPlaces> GuessDimPlaces(const CurveShape& shape, const DataTraits& traits,
+                                      const std::vector<double>& deficits, int substrings,
+                                      std::size_t most);
 
 // A cell in reverse bias while the terminals are shorted.
 struct HotCell {
@@ -47,5 +73,17 @@ void SetOddCells(const S& count, const S& deficit, const S& leak, const S& chain
   cell->substring[0].parallel = true;
   cell->group[cell->groups++] = {odd, S(1.0), S(0.0), 0, true};
 }
+
+// Shares of the cells in three substrings, the brightest first.
+using ThreeShares = std::array<double, 3>;
+
+// Modules of three substrings whose middle one has half of all cells (24, 48 and 24): the orders of
+// brightness that explain the steps of a curve better than three equal substrings do, or less well
+// by `nearly` at most, in parts of the voltage. Empty for other data.
+std::vector<ThreeShares> UnlikeShares(const CurveShape& shape, const DataTraits& traits,
+                                      double nearly = 0);
+
+// A step is placed no better than this.
+inline constexpr double kStepPlaced = 0.03;
 
 }  // namespace lyrefit

@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/needs.h"
-#include "lyrefit/effects/phrases.h"
+#include "lyrefit/effects/parts.h"
 
 namespace lyrefit {
 namespace {

@@ -1,15 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numeric>
 #include <utility>
 
-#include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/needs.h"
-#include "lyrefit/effects/phrases.h"
-#include "lyrefit/effects/unlike_substrings.h"
+#include "lyrefit/effects/odd_cells.h"
+#include "lyrefit/effects/parts.h"
 
 namespace lyrefit {
 namespace {

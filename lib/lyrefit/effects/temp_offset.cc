@@ -1,6 +1,4 @@
-#include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/needs.h"
-#include "lyrefit/effects/phrases.h"
+#include "lyrefit/effects/parts.h"
 
 namespace lyrefit {
 

@@ -2,9 +2,7 @@
 
 #include <cmath>
 
-#include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/needs.h"
-#include "lyrefit/effects/phrases.h"
+#include "lyrefit/effects/parts.h"
 
 namespace lyrefit {
 

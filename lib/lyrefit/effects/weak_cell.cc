@@ -3,10 +3,8 @@
 #include <algorithm>
 
 #include "lyrefit/base/roots.h"
-#include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
-#include "lyrefit/effects/phrases.h"
+#include "lyrefit/effects/parts.h"
 #include "lyrefit/model/cell.h"
 
 namespace lyrefit {

@@ -5,7 +5,6 @@
 
 #include "lyrefit/family/family_parts.h"
 #include "lyrefit/report/text_layout.h"
-#include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {
 namespace {

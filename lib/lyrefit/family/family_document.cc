@@ -5,8 +5,6 @@
 
 #include "lyrefit/family/family_documents.h"
 #include "lyrefit/family/family_parts.h"
-#include "lyrefit/report/documents.h"
-#include "lyrefit/report/estimate_parts.h"
 #include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"

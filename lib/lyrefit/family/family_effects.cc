@@ -1,4 +1,4 @@
-#include "lyrefit/family/family_effects.h"
+#include "lyrefit/family/family_problem.h"
 
 #include <fmt/format.h>
 

@@ -1,14 +1,12 @@
-#include "lyrefit/family/family_held_out.h"
+#include "lyrefit/family/refine_family.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "lyrefit/base/median.h"
-#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/family/family_judge.h"

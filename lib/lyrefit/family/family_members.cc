@@ -8,7 +8,6 @@
 #include <optional>
 #include <set>
 
-#include "lyrefit/base/largest.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"

@@ -2,10 +2,8 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/dual.h"

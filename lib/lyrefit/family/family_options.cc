@@ -6,8 +6,6 @@
 #include <sstream>
 
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/base/try.h"
-#include "lyrefit/family/fit_family.h"
 
 namespace lyrefit {
 

@@ -1,6 +1,5 @@
 #include "lyrefit/family/family_documents.h"
 #include "lyrefit/family/family_parts.h"
-#include "lyrefit/report/plots.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +7,6 @@
 #include <cmath>
 #include <map>
 
-#include "lyrefit/curve/curve_set.h"
-#include "lyrefit/family/family_report.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/reporting_units.h"

@@ -10,7 +10,6 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/technology.h"
-#include "lyrefit/family/family_effects.h"
 #include "lyrefit/model/default_values.h"
 #include "lyrefit/model/pvlib_parameters.h"
 

@@ -1,4 +1,4 @@
-#include "lyrefit/family/family_warnings.h"
+#include "lyrefit/family/refine_family.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lyrefit/base/reasons.h"
-#include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {
 

@@ -5,16 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/base/observer.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/family/family_errors.h"
-#include "lyrefit/family/family_held_out.h"
 #include "lyrefit/family/family_judge.h"
-#include "lyrefit/family/family_warnings.h"
 #include "lyrefit/family/joint.h"
-#include "lyrefit/family/key_point_summary.h"
 #include "lyrefit/family/refine_family.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/kernel.h"

@@ -11,7 +11,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/family/individual_fits.h"
+#include "lyrefit/family/refine_family.h"
 #include "lyrefit/model/reporting_units.h"
 
 namespace lyrefit {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "lyrefit/base/median.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/family/family_model.h"
 #include "lyrefit/family/family_search.h"
 #include "lyrefit/model/extended_set.h"

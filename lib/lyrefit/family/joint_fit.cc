@@ -10,7 +10,6 @@
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_members.h"
 #include "lyrefit/model/kernel.h"
-#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

@@ -1,6 +1,5 @@
 #include "lyrefit/family/key_point_solver.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "lyrefit/base/numbers.h"

@@ -1,7 +1,6 @@
-#include "lyrefit/family/key_point_summary.h"
+#include "lyrefit/family/refine_family.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -3,19 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/family/family_effects.h"
-#include "lyrefit/family/family_held_out.h"
 #include "lyrefit/family/family_members.h"
 #include "lyrefit/family/family_problem.h"
 #include "lyrefit/family/joint.h"
 #include "lyrefit/family/key_point_solver.h"
-#include "lyrefit/family/key_point_summary.h"
 
 namespace lyrefit {
 namespace {

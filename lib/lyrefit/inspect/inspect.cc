@@ -1,7 +1,5 @@
 #include "lyrefit/inspect/inspect.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <string_view>

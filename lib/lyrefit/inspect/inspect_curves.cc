@@ -1,17 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/inspect/inspect_parts.h"
 #include "lyrefit/read/cells.h"
 #include "lyrefit/report/text_layout.h"
-#include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {
 namespace {

@@ -1,10 +1,8 @@
 #include "lyrefit/model/device_effects.h"
 
 #include <fmt/format.h>
-#include <glog/logging.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"

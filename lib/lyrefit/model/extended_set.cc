@@ -1,6 +1,5 @@
 #include "lyrefit/model/extended_set.h"
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>

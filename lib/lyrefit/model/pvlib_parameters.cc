@@ -6,7 +6,6 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstring>
-#include <type_traits>
 #include <utility>
 
 #include "lyrefit/model/string.h"

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "lyrefit/base/dual.h"
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/roots.h"
 #include "lyrefit/model/term.h"
 

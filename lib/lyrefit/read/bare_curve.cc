@@ -1,6 +1,6 @@
 #include "lyrefit/read/bare_curve.h"
 
-#include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/settle_conditions.h"
 
 namespace lyrefit {

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/read/table_header.h"
 
 namespace lyrefit {
 

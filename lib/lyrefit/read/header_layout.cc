@@ -5,13 +5,10 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <optional>
-#include <vector>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/table_columns.h"
 
 namespace lyrefit {
 namespace {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/sweep_order.h"

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/read/join_sweeps.h"

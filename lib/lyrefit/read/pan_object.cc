@@ -1,4 +1,4 @@
-#include "lyrefit/read/pan_object.h"
+#include "lyrefit/read/read_pan.h"
 
 #include <fmt/format.h>
 

@@ -12,7 +12,7 @@
 #include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/curve_set_builder.h"
 #include "lyrefit/read/curve_text.h"
 #include "lyrefit/read/json_curves.h"

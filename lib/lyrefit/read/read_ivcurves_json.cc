@@ -6,9 +6,8 @@
 #include <filesystem>
 #include <set>
 
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/settle_conditions.h"
 

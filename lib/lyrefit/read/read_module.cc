@@ -4,10 +4,8 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/data_sheet_values.h"
 #include "lyrefit/read/cec_library.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/read/pan_object.h"
 #include "lyrefit/read/read_pan.h"
 #include "lyrefit/read/text_encoding.h"
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
@@ -14,7 +13,6 @@
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/read/pan_object.h"
 
 namespace lyrefit {
 namespace {

@@ -10,7 +10,6 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/read/json_text.h"
 
 namespace lyrefit {

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/equal_readings.h"
+#include "lyrefit/curve/plausibility.h"
 #include "lyrefit/read/join_sweeps.h"
 #include "lyrefit/read/records.h"
 #include "lyrefit/read/stated_results.h"

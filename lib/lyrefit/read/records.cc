@@ -8,7 +8,7 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/equal_readings.h"
+#include "lyrefit/curve/plausibility.h"
 #include "lyrefit/read/join_sweeps.h"
 
 namespace lyrefit {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,7 +11,6 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/register_dump.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 

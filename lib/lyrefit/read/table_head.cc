@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/curve/left_temperature.h"
+#include "lyrefit/curve/plausibility.h"
 #include "lyrefit/curve/technology.h"
-#include "lyrefit/read/label.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 

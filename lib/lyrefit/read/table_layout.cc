@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/key_point_table.h"
 #include "lyrefit/read/results_above.h"
-#include "lyrefit/read/table_header.h"
-#include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {
 namespace {

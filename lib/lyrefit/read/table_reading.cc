@@ -12,10 +12,9 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/read/join_sweeps.h"
+#include "lyrefit/curve/sweep_order.h"
 
 namespace lyrefit {
 namespace {

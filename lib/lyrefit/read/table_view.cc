@@ -16,7 +16,6 @@
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/rewrite_table.h"
 #include "lyrefit/read/table_curve.h"
-#include "lyrefit/read/table_layout.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/read/text_encoding.h"
 

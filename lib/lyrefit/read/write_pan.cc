@@ -12,7 +12,6 @@
 #include "lyrefit/model/default_values.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/pvlib_parameters.h"
-#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

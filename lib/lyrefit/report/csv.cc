@@ -2,24 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <string_view>
-#include <utility>
 
 #include "lyrefit/read/spreadsheet_text.h"
 #include "lyrefit/report/fit_parts.h"
-#include "lyrefit/report/readable.h"
+#include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
 namespace {
-
-std::string JoinWith(const std::vector<std::string>& parts, const std::string& separator) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : separator) + part;
-  return text;
-}
 
 std::string FitsHead(const std::vector<ParameterInfo>& parameters) {
   std::string line =
@@ -68,7 +58,7 @@ std::vector<std::string> FitRow(const FittedFile& fit,
     fields.push_back(CsvField(rmse.solved_current_A));
   }
   fields.push_back(report.usable ? "true" : "false");
-  fields.push_back(CsvField(JoinWith(report.warnings, "; ")));
+  fields.push_back(CsvField(fmt::format("{}", fmt::join(report.warnings, "; "))));
   fields.push_back("");
   return fields;
 }

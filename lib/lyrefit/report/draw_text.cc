@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "lyrefit/report/document.h"
-#include "lyrefit/report/readable.h"
 #include "lyrefit/report/text_layout.h"
 
 // Layout of the terminal: headings, titles, legends and conclusions start at the left edge, other

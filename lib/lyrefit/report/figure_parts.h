@@ -1,18 +1,19 @@
 #pragma once
+// Steps from a figure to gnuplot commands and from those to a picture.
 
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/report/figure.h"
 
-// Steps from a figure to gnuplot commands and from those to a picture.
 namespace lyrefit {
 
-// figure_page.cc: positions of title, legend and panels, in pixels of the SVG picture.
+// figure_svg.cc: positions of title, legend and panels, in pixels of the SVG picture.
 struct PageLayout {
   double width = 0;
   double height = 0;
@@ -62,5 +63,27 @@ std::vector<std::vector<FigureRow>> RowsToDraw(const Panel& panel, const Series&
 // gnuplot.cc: runs gnuplot on `script`, without start-up files, and returns its standard output.
 // Errors: gnuplot missing, or a script that it rejects.
 Expected<std::string> RunGnuplot(const std::string& script);
+
+// plotly_traces.cc: Plotly's names of a panel's axes: "x2", "y2", and "y5" for its right axis.
+struct PlotlyAxes {
+  std::string x;
+  std::string y;
+  std::string right;
+};
+
+// Plain text escaped for Plotly, which interprets some HTML.
+std::string PlotlyText(const std::string& text);
+std::string PlotlyDash(int dash);
+
+// Traces without points for the legend, which switch the traces of their name.
+nlohmann::ordered_json PlotlyLegend(const Figure& figure);
+
+// Appends the traces of a panel.
+void AddPlotlyTraces(const Figure& figure, const Panel& panel, const PlotlyAxes& axes,
+                     const MostRows& most, nlohmann::ordered_json* data);
+
+// The colour bar, and the trace without points that makes Plotly show it.
+nlohmann::ordered_json PlotlyBarTrace(const ColourBar& bar);
+nlohmann::ordered_json PlotlyColourBar(const ColourBar& bar);
 
 }  // namespace lyrefit

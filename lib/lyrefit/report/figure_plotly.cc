@@ -1,14 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "lyrefit/report/figure_parts.h"
 #include "lyrefit/report/html_parts.h"
-#include "lyrefit/report/plotly_parts.h"
 
 namespace lyrefit {
 namespace {

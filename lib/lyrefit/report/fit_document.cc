@@ -5,7 +5,6 @@
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/estimate_parts.h"
 #include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"

@@ -1,23 +1,26 @@
 #pragma once
+// Functions shared by the documents, tables and pictures of fits, and by those of other records that
+// show the same things.
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lyrefit/estimate/fit/estimate_report.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/report/document.h"
+#include "lyrefit/report/json_parts.h"
 
-// Functions shared by the documents, tables and pictures of fits, and by those of other records that
-// show the same things.
 namespace lyrefit {
 
-// fits_document.cc: parameters of the largest model; smaller models have the first of them.
+// Parameters of the largest model; smaller models have the first of them.
 std::vector<ParameterInfo> LargestModel(const std::vector<FittedFile>& fits);
 
 // Final value and standard error of the parameter with this symbol.
 std::pair<double, double> ValueAndError(const FitReport& report, const ParameterInfo& info);
 
-// fit_verdicts.cc: conclusions of one or two sentences.
+// fit_parts.cc: conclusions of one or two sentences.
 std::string ResidualVerdict(const ResidualStatistics& residuals);
 std::string FitVerdict(const FitReport& report);
 // Distance of the result from the floor, which is that of any number of diodes. A gap below three
@@ -42,5 +45,29 @@ constexpr int kResidualDigits = 3;
 // Indices of the readings that a table shows; the caption states where the others are.
 std::vector<std::size_t> RowsShown(const std::vector<double>& voltage_V,
                                    const std::vector<double>& current_A, std::string* caption);
+
+// Of every estimate, of whatever measurement: a column of a table. `alignment` as in block::Table.
+struct EstimateColumn {
+  std::string head;
+  char alignment = 'r';
+  std::function<std::string(const Estimate&)> cell;
+};
+
+EstimateColumn SearchedColumn();
+// The refined value with so many digits.
+EstimateColumn RefinedColumn(int digits = 6);
+EstimateColumn ErrorColumn();
+EstimateColumn IntervalColumn();
+
+// A row for each estimate: its label, these columns, its marks.
+block::Table EstimateTable(const std::vector<Estimate>& estimates,
+                           const std::vector<EstimateColumn>& columns);
+
+// How the estimate was found: search, polish, starts, intervals, the further fields, options.
+Section CourseSection(const EstimateReport& report,
+                      const std::vector<std::pair<std::string, std::string>>& further = {});
+
+// JSON of correlations, search, polish and intervals.
+Json CourseJson(const EstimateReport& report);
 
 }  // namespace lyrefit

@@ -3,7 +3,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -12,8 +11,9 @@
 #include <memory>
 #include <system_error>
 
-#include "lyrefit/base/descriptor.h"
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/new_file.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/report/figure_parts.h"
 
@@ -83,10 +83,7 @@ int RunWith(std::FILE* input, std::FILE* output, std::FILE* messages) {
 
 // The terminal "svg", "png" or "pdf" by the extension.
 Expected<std::string> TerminalFor(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+  const std::string extension = LowerCase(std::filesystem::path(path).extension().string());
   if (extension == ".svg" || extension == ".png" || extension == ".pdf") return extension.substr(1);
   return Fail(fmt::format("expected a plot file that ends in .svg, .png or .pdf, found {}",
                           extension.empty() ? "no extension" : extension),

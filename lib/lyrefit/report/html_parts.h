@@ -2,13 +2,12 @@
 
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/report/document.h"
 #include "lyrefit/report/figure.h"
-#include "lyrefit/report/readable.h"
+#include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
 

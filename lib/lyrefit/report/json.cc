@@ -4,7 +4,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/curve/curve_kind.h"
-#include "lyrefit/report/estimate_parts.h"
+#include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/json_parts.h"
 
 namespace lyrefit {

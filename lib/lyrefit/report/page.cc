@@ -8,7 +8,6 @@
 #include <sstream>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "lyrefit/report/html_parts.h"
 #include "lyrefit/report/page_shell.h"

@@ -4,7 +4,6 @@
 
 #include "lyrefit/base/version.h"
 #include "lyrefit/report/html_parts.h"
-#include "lyrefit/report/page_assets.h"
 
 namespace lyrefit {
 namespace {

@@ -1,4 +1,6 @@
 #pragma once
+// The common frame of all pages: one HTML file without network access, for light and dark, phones
+// and paper, keyboard and screen reader. The caller supplies the content.
 
 #include <zlib.h>
 
@@ -6,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-// The common frame of all pages: one HTML file without network access, for light and dark, phones
-// and paper, keyboard and screen reader. The caller supplies the content.
 namespace lyrefit {
 
 // Data for scripts, which read it by `lyrefit.data(id)`.
@@ -65,5 +65,20 @@ class PackedText {
 // A whole text, and bytes as base64 text.
 std::string Packed(std::string_view text);
 std::string Base64(std::string_view bytes);
+
+// Files that pages embed, from `assets/` and from the build machine. The source is written by
+// cmake/EmbedAssets.cmake.
+std::string_view PageStyle();
+std::string_view PageScript();
+std::string_view TableScript();
+
+// Plotly's basic bundle, gzipped; empty if it was not installed at build time.
+std::string_view PackedPlotly();
+std::string_view PlotlyLicence();
+
+// Tabulator, gzipped; empty if it was not installed at build time.
+std::string_view PackedTabulator();
+std::string_view PackedTabulatorStyle();
+std::string_view TabulatorLicence();
 
 }  // namespace lyrefit

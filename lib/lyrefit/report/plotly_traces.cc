@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "lyrefit/report/plotly_parts.h"
+#include "lyrefit/report/figure_parts.h"
 
 namespace lyrefit {
 namespace {

@@ -30,4 +30,8 @@ std::string Wrap(std::string_view first, std::string_view text);
 // Number of terminal columns of a UTF-8 text.
 std::size_t Columns(std::string_view text);
 
+// A text as valid UTF-8: each byte that is not UTF-8 becomes U+FFFD. Names are read from files and
+// may contain any bytes.
+std::string Readable(std::string_view text);
+
 }  // namespace lyrefit

@@ -1,4 +1,5 @@
 #pragma once
+// Functions shared by the reports.
 
 #include <string>
 #include <vector>
@@ -10,7 +11,6 @@
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/report/document.h"
 
-// Functions shared by the reports.
 namespace lyrefit {
 
 // Title of a model: "single-diode".
@@ -68,5 +68,9 @@ std::string ErrorTests(const ErrorReport& errors, bool dark);
 
 // Adds a sentence for each parameter that is not identifiable.
 void AddUnidentifiable(const std::vector<Estimate>& estimates, Section* section);
+
+// What to run instead where sweeps are too few to be judged together.
+inline constexpr char kSideBySide[] =
+    "to put Isc, Rs, Rsh and n of a few sweeps side by side, run lyrefit fit FILES --csv table.csv";
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-#include "lyrefit/search/crowding.h"
+#include "lyrefit/search/run.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/search/crowding.h"
 #include "lyrefit/search/run.h"
 
 namespace lyrefit {

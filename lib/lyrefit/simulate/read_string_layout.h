@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/model/string_layout.h"
+#include "lyrefit/model/law.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

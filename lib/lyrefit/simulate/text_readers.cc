@@ -1,6 +1,6 @@
 #include "lyrefit/simulate/text_readers.h"
 
-#include "lyrefit/effects/read_effect_use.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/settings/error_file.h"
 
 namespace lyrefit {

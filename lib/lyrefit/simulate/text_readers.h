@@ -6,7 +6,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The readers of this library: effects of the catalogue (read_effect_use.h), files of error sizes
+// The readers of this library: effects of the catalogue (effects/catalogue.h), files of error sizes
 // (error_file.h).
 const TextReaders& AllTextReaders();
 

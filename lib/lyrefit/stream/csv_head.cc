@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <set>
 #include <utility>
 
@@ -16,7 +15,7 @@
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/read/text_encoding.h"
-#include "lyrefit/stream/json_row.h"
+#include "lyrefit/stream/row_curve.h"
 #include "lyrefit/stream/row_names.h"
 
 namespace lyrefit {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "lyrefit/base/try.h"
@@ -10,7 +9,6 @@
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/stream/batch_input.h"
 #include "lyrefit/stream/json_elements.h"
-#include "lyrefit/stream/json_row.h"
 #include "lyrefit/stream/row_curve.h"
 #include "lyrefit/stream/row_names.h"
 

@@ -1,5 +1,5 @@
 // Optimized fully: rows are parsed character by character.
-#include "lyrefit/stream/json_row.h"
+#include "lyrefit/stream/row_curve.h"
 
 #include <fmt/format.h>
 

@@ -12,8 +12,8 @@
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/read/table_layout.h"
 #include "lyrefit/stream/batch_input.h"
-#include "lyrefit/stream/json_row.h"
 #include "lyrefit/stream/line_scanner.h"
+#include "lyrefit/stream/row_curve.h"
 #include "lyrefit/stream/row_names.h"
 
 namespace lyrefit {

@@ -12,7 +12,7 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/guess_columns.h"
 #include "lyrefit/read/settle_conditions.h"
 #include "lyrefit/read/sidecar.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -12,6 +11,17 @@
 #include "lyrefit/stream/batch_source.h"
 
 namespace lyrefit {
+
+// Parses a JSON object of scalars and lists of scalars on one line, as in JSON Lines, in one pass.
+// NaN and Infinity, which Python writes, are missing readings. Deeper nesting is skipped and
+// marked. Errors: a sentence and the column; the caller adds file and line.
+Expected<void> ParseJsonRow(std::string_view text, Records* fields);
+
+// Reads only the scalars, up to the first syntax error. This suffices for the id of a broken row.
+void ScanJsonScalars(std::string_view text, Records* fields);
+
+// Position after the value that begins at `at`; the end of the text if the value is incomplete.
+std::size_t SkipJsonValue(std::string_view text, std::size_t at);
 
 // Prefix of the error of a row that was already broken when it was packed.
 inline constexpr std::string_view kPackedAsBroken = "packed as a broken one: ";

@@ -7,7 +7,6 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/stream/batch_input.h"
-#include "lyrefit/stream/json_row.h"
 #include "lyrefit/stream/line_scanner.h"
 #include "lyrefit/stream/row_curve.h"
 #include "lyrefit/stream/row_names.h"

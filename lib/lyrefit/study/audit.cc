@@ -11,12 +11,9 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/estimate/fit/bounds.h"
 #include "lyrefit/settings/bounds_file.h"
-#include "lyrefit/study/audit_curves.h"
 #include "lyrefit/study/audit_evidence.h"
-#include "lyrefit/study/audit_explain.h"
 #include "lyrefit/study/audit_lowest.h"
 #include "lyrefit/study/audit_reading.h"
-#include "lyrefit/study/audit_sentence.h"
 
 namespace lyrefit {
 namespace {

@@ -95,14 +95,6 @@ const char* const kAuditColumnNames =
     "source, device, model, algorithm, rmse_A (or sse_A2), Iph_A, Rs_ohm, Rsh_ohm, Is1_A (or "
     "Is1_uA), n1, Is2_A, n2, Is3_A, n3, objective, temperature_C, cells, constants, bounds, note";
 
-std::string AsciiLower(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return lower;
-}
-
 Expected<AuditColumns> ReadAuditColumns(std::string_view line, const std::string& path,
                                         int number) {
   AuditColumns columns;
@@ -111,7 +103,7 @@ Expected<AuditColumns> ReadAuditColumns(std::string_view line, const std::string
   if (!fields.Split(line)) return Fail("the quotes do not close", path, number, 1);
   columns.fields = fields.size();
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    const std::string name = AsciiLower(fields[i]);
+    const std::string name = LowerCase(fields[i]);
     const auto field = static_cast<int>(i);
     const std::optional<Quantity> quantity = AsQuantity(name);
     if (!quantity && !IsWord(name)) {

@@ -32,7 +32,4 @@ struct AuditColumns {
 // missing column.
 Expected<AuditColumns> ReadAuditColumns(std::string_view line, const std::string& path, int number);
 
-// `text` with A to Z in lower case; other bytes are unchanged.
-std::string AsciiLower(std::string_view text);
-
 }  // namespace lyrefit

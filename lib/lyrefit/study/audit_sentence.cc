@@ -1,4 +1,4 @@
-#include "lyrefit/study/audit_sentence.h"
+#include "lyrefit/study/audit_evidence.h"
 
 #include <fmt/format.h>
 

@@ -12,14 +12,11 @@
 #include <set>
 #include <utility>
 
-#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/check_readings.h"
-#include "lyrefit/study/best_known.h"
-#include "lyrefit/study/compare_checks.h"
 #include "lyrefit/study/compare_journal.h"
 #include "lyrefit/study/compare_run.h"
 #include "lyrefit/study/reference.h"

@@ -82,7 +82,7 @@ struct CompareOptions {
   bool plain_polish = false;  // see FitOptions
   bool rankings = true;       // compute rank tests between the algorithms
   // Number of random points that are polished, beside long searches, to find the best known optimum
-  // of a problem without a certificate. 0: only the compared runs are used. See best_known.h.
+  // of a problem without a certificate. 0: only the compared runs are used. See reference.h.
   int multistart = 0;
   int threads = 0;  // 0: all cores; affects only the measured seconds
   const Kernel* kernel = nullptr;

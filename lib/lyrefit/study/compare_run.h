@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "lyrefit/study/comparison.h"
 #include "lyrefit/study/summary.h"
@@ -24,5 +25,11 @@ Expected<std::optional<RunOutcome>> RunOnce(const CompareCurve& subject,
                                             const CompareOptions& options,
                                             const ComparedAlgorithm& compared, int run,
                                             const Observer& observer);
+
+// Checks a comparison without reading its curves. Errors: nothing to compare, missing or equal
+// names, options outside their ranges.
+Expected<void> CheckComparison(const std::vector<CompareCurve>& curves,
+                               const std::vector<ComparedAlgorithm>& algorithms,
+                               const CompareOptions& options);
 
 }  // namespace lyrefit

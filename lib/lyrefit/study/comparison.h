@@ -90,7 +90,7 @@ struct Reference {
   // Raised lower bound of n of the runs and of the proof; see FitReport. NaN: the bound was not
   // raised, or the problem has effects.
   double steepest_n = kUnknown;
-  // The multistart is better than every run by more than 1e-6 (best_known.h).
+  // The multistart is better than every run by more than 1e-6 (reference.h).
   bool by_multistart = false;
   int points = 0;  // number of random points polished by the multistart
   int visits = 0;  // number of random points that ended within 1e-6 (relative) of the reference

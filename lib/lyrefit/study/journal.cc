@@ -1,10 +1,9 @@
-#include "lyrefit/study/journal.h"
+#include "lyrefit/study/compare_journal.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstring>
-#include <utility>
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"

@@ -1,4 +1,7 @@
 #pragma once
+// Summaries of problems with many local optima. They count how often a search ends in the best
+// local optimum and measure its time. All devices of a problem are summarised together. Everything
+// is computed from the run records.
 
 #include <array>
 #include <cstdint>
@@ -8,9 +11,6 @@
 
 #include "lyrefit/study/comparison.h"
 
-// Summaries of problems with many local optima. They count how often a search ends in the best
-// local optimum and measure its time. All devices of a problem are summarised together. Everything
-// is computed from the run records.
 namespace lyrefit {
 
 // The stages of a run, by increasing polish.
@@ -104,5 +104,21 @@ struct Deviation {
   int parameter = -1;       // position of the deviating parameter; -1: none
 };
 Deviation LargestDeviation(const ProblemResult& device, const std::vector<double>& parameters);
+
+// Ranks of the searches of one budget, on one problem or on all problems. The blocks are all runs
+// of all devices. The ranked figure is RMSE / reference of the device. Figures of one block within
+// kHit (relative) of each other are equal.
+struct SummaryRanking {
+  std::string problem;  // empty: all problems together
+  std::int64_t budget = 0;
+  std::vector<std::string> names;  // of the algorithms, in the order of the ranks
+  Ranking searched;                // of the search alone
+  Ranking own;                     // of the best candidate's own polish
+};
+
+// Rankings by increasing budget. For each budget the first ranks all problems together, if there
+// are several, and then each problem follows. Blocks that not every search of a budget has done are
+// left out. Budgets with fewer than two searches or blocks are left out.
+std::vector<SummaryRanking> RankProblems(const std::vector<ProblemSummary>& summaries);
 
 }  // namespace lyrefit

@@ -79,7 +79,7 @@ class RowReader {
     row_.bounds = Text(bounds);
     row_.bounds_column = ColumnOf(bounds);
     const int model = FieldOf("model");
-    if (const auto known = FromText<Model>(AsciiLower(Text(model)))) {
+    if (const auto known = FromText<Model>(LowerCase(Text(model)))) {
       row_.model = *known;
     } else {
       Refuse(model, fmt::format("expected a model ({}), found {}", AllTexts<Model>(),
@@ -109,7 +109,7 @@ class RowReader {
     }
     const int objective = FieldOf("objective");
     if (const std::string text = Text(objective); !text.empty()) {
-      row_.objective = FromText<Objective>(AsciiLower(text));
+      row_.objective = FromText<Objective>(LowerCase(text));
       if (!row_.objective) {
         Refuse(objective, fmt::format("expected an objective ({}), found {}", AllTexts<Objective>(),
                                       Quoted(text)));
@@ -117,7 +117,7 @@ class RowReader {
     }
     const int constants = FieldOf("constants");
     if (const std::string text = Text(constants); !text.empty()) {
-      row_.constants = FromText<ConstantSet>(AsciiLower(text));
+      row_.constants = FromText<ConstantSet>(LowerCase(text));
       if (!row_.constants) {
         Refuse(constants, fmt::format("expected a set of constants ({}), found {}",
                                       AllTexts<ConstantSet>(), Quoted(text)));
@@ -138,10 +138,10 @@ class RowReader {
     const Device device = MakeDevice(row_.model, {});
     const bool published =
         std::any_of(device.parameters.begin(), device.parameters.end(),
-                    [&](const ParameterInfo& info) { return Fills(AsciiLower(info.symbol)); });
+                    [&](const ParameterInfo& info) { return Fills(LowerCase(info.symbol)); });
     for (const ParameterInfo& info : device.parameters) {
       if (!published) break;
-      const std::string name = AsciiLower(info.symbol);
+      const std::string name = LowerCase(info.symbol);
       const bool positive = name == "rsh" || name[0] == 'n';
       row_.parameters.push_back(
           Number(info.symbol, name, positive ? Sign::kPositive : Sign::kNotNegative));
@@ -149,7 +149,7 @@ class RowReader {
     const Device largest = MakeDevice(Model::kTripleDiode, {});
     for (int i = device.size(); i < largest.size(); ++i) {
       const std::string& symbol = largest.parameters[i].symbol;
-      const auto found = columns_.quantities.find(AsciiLower(symbol));
+      const auto found = columns_.quantities.find(LowerCase(symbol));
       if (found == columns_.quantities.end()) continue;
       for (const QuantityColumn& column : found->second) {
         if (Text(column.field).empty()) continue;

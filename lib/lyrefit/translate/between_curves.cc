@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"

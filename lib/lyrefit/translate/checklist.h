@@ -9,7 +9,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/translate/checklist_options.h"
+#include "lyrefit/translate/field_test_options.h"
 #include "lyrefit/translate/procedures.h"
 #include "lyrefit/translate/uncertainty_options.h"
 

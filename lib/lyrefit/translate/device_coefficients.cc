@@ -9,7 +9,6 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/technology.h"
 #include "lyrefit/model/translation.h"

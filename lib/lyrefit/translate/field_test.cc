@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/translate/field_inputs.h"

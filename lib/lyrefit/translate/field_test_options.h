@@ -11,6 +11,47 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
+// Limits of the conditions of a field measurement, and the wind, which is not recorded with a
+// curve.
+struct ChecklistOptions {
+  double least_irradiance_W_m2 = 700;
+  double most_sweep_s = 5;
+  double most_unsteady_percent = 2;
+  double most_wind_m_s = 4;
+  std::optional<double> wind_m_s;
+};
+
+inline constexpr OptionRow<ChecklistOptions> kChecklistOptionTable[] = {
+    OptionRow<ChecklistOptions>("Conditions of a field measurement"),
+    {"least-irradiance", "W/m2", "light that a field test asks for (IEC 61829:2015)",
+     &ChecklistOptions::least_irradiance_W_m2, 0, 2000},
+    {"most-sweep-time", "s", "longest sweep (IEC 61829:2015)", &ChecklistOptions::most_sweep_s, 0,
+     3600},
+    {"most-unsteady", "%", "largest departure of the light from its mean during a sweep",
+     &ChecklistOptions::most_unsteady_percent, 0, 100},
+    {"most-wind", "m/s", "most wind (IEC 61829:2015)", &ChecklistOptions::most_wind_m_s, 0, 100},
+    {"wind", "m/s", "wind during the measurement", &ChecklistOptions::wind_m_s},
+};
+
+// Notes of the operator for the printed page. They enter no computation: the uncertainty of a
+// calibration is set in UncertaintyOptions.
+struct FieldNotes {
+  std::string tracer;
+  std::string serial;
+  std::string calibration;
+  std::string operated_by;
+  std::string remark;
+};
+
+inline constexpr OptionRow<FieldNotes> kFieldNotesTable[] = {
+    OptionRow<FieldNotes>("Printed on the page"),
+    {"tracer", "TEXT", "the instrument, as it is called", &FieldNotes::tracer},
+    {"serial", "TEXT", "its serial number", &FieldNotes::serial},
+    {"calibration", "TEXT", "its calibration: certificate, date", &FieldNotes::calibration},
+    {"operator", "TEXT", "who measured", &FieldNotes::operated_by},
+    {"remark", "TEXT", "whatever else is to be read on the page", &FieldNotes::remark},
+};
+
 // Tolerance of a module's rated power in the notation of data sheets: "-0,+5" in percent, "-0W,+5W"
 // in watt.
 struct PowerTolerance {

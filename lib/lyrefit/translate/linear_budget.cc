@@ -1,4 +1,4 @@
-#include "lyrefit/translate/linear_budget.h"
+#include "lyrefit/translate/translation_budget.h"
 
 #include <fmt/format.h>
 

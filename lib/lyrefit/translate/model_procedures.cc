@@ -1,7 +1,6 @@
 #include "lyrefit/translate/procedure_steps.h"
 
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include "lyrefit/base/numbers.h"

@@ -7,7 +7,6 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/median.h"
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/diagnose/diagnose.h"

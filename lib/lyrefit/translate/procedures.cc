@@ -1,11 +1,8 @@
 #include "lyrefit/translate/procedures.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/translate/extended_model.h"
 #include "lyrefit/translate/procedure_steps.h"

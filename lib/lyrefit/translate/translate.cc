@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "lyrefit/base/append.h"
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"

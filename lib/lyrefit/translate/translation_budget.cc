@@ -1,5 +1,7 @@
 #include "lyrefit/translate/translation_budget.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <utility>
@@ -74,14 +76,11 @@ OutputChoice CauseChoice(Procedure procedure, const PreparedCurve& curve,
 // A removed cause of the sweep may belong to the device after all, which only another sweep can
 // decide. The other answer is the uncorrected readings, translated as those of a faultless module.
 OutputChoice RemovalChoice(const PreparedCurve& curve, const TranslationInputs& inputs) {
-  std::string titles;
-  for (const std::string& title : curve.models.front()->removed) {
-    titles += (titles.empty() ? "" : ", ") + title;
-  }
   OutputChoice choice = {"removal",
                          "what was taken out of the sweep",
                          "cause",
-                         "with and without " + titles + "; a further sweep would tell",
+                         fmt::format("with and without {}; a further sweep would tell",
+                                     fmt::join(curve.models.front()->removed, ", ")),
                          {}};
   for (const Procedure procedure : {Procedure::kDeSoto, Procedure::kIec4, Procedure::kIec2}) {
     const auto key = TranslatedKeyPoints(procedure, curve, inputs);

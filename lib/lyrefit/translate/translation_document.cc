@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/diagnose/diagnosis_parts.h"
-#include "lyrefit/report/documents.h"
 #include "lyrefit/report/fit_parts.h"
-#include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/translate/key_point_noise.h"

@@ -5,7 +5,6 @@
 
 #include "lyrefit/report/figure_parts.h"
 #include "lyrefit/report/fit_parts.h"
-#include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/translate/field_inputs.h"

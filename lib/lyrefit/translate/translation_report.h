@@ -13,8 +13,8 @@
 #include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/translate/checklist.h"
 #include "lyrefit/translate/device_coefficients.h"
-#include "lyrefit/translate/field_notes.h"
 #include "lyrefit/translate/field_test.h"
+#include "lyrefit/translate/field_test_options.h"
 #include "lyrefit/translate/procedures.h"
 #include "lyrefit/translate/uncertainty.h"
 

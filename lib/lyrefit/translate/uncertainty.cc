@@ -10,7 +10,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/translate/linear_budget.h"
+#include "lyrefit/translate/translation_budget.h"
 
 namespace lyrefit {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/base/quantile.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/trend/loss_split.h"
 

@@ -9,7 +9,6 @@
 #include <map>
 
 #include "lyrefit/base/median.h"
-#include "lyrefit/base/quantile.h"
 #include "lyrefit/curve/date_time.h"
 
 namespace lyrefit {

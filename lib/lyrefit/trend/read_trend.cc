@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "lyrefit/base/stoppable_reads.h"
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/date_time.h"

@@ -11,7 +11,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/date_time.h"
-#include "lyrefit/report/side_by_side.h"
+#include "lyrefit/report/text_parts.h"
 #include "lyrefit/trend/blocks.h"
 #include "lyrefit/trend/day_series.h"
 #include "lyrefit/trend/operating_rows.h"

@@ -8,7 +8,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/date_time.h"
-#include "lyrefit/report/side_by_side.h"
+#include "lyrefit/report/text_parts.h"
 #include "lyrefit/trend/blocks.h"
 #include "lyrefit/trend/trend_device.h"
 

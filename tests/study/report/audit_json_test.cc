@@ -1,4 +1,4 @@
-#include "lyrefit/study/report/audit_json.h"
+#include "lyrefit/study/report/documents.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "lyrefit/study/report/compare_json.h"
+#include "lyrefit/study/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "lyrefit/study/report/compare_plot.h"
+#include "lyrefit/study/report/documents.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "error_of.h"
-#include "lyrefit/study/report/compare_script.h"
+#include "lyrefit/study/report/compare_parts.h"
 #include "sample_comparison.h"
 #include "temp_folder.h"
 

@@ -1,4 +1,4 @@
-#include "lyrefit/study/report/problem_verdict.h"
+#include "lyrefit/study/verdict.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/base/largest.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"

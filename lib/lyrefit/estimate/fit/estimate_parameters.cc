@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"

@@ -22,7 +22,6 @@
 #include "lyrefit/estimate/fit/search_space.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/fit/usable.h"
-#include "lyrefit/estimate/fit/warnings.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/search/search.h"
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/base/stoppable_reads.h"
 
 namespace lyrefit {
 std::vector<FittedFile> FitFiles(

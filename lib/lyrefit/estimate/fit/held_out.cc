@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/estimate/fit/fit.h"
@@ -114,9 +113,7 @@ std::string Objection(const CandidateReport& simple, const CandidateReport& rich
     reasons.push_back(fmt::format("held-out RMSE does not fall ({:.3g} to {:.3g} A)",
                                   simple.held_out_rmse_A, rich.held_out_rmse_A));
   }
-  std::string text;
-  for (const std::string& reason : reasons) text += (text.empty() ? "" : ", ") + reason;
-  return text;
+  return fmt::format("{}", fmt::join(reasons, ", "));
 }
 
 // Whether every diode is needed. The best fit with one diode less must be outside the 95 % limit

@@ -8,7 +8,6 @@
 #include "lyrefit/estimate/refine/coarsen.h"
 #include "lyrefit/estimate/refine/other_optima.h"
 #include "lyrefit/estimate/refine/profile.h"
-#include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/reporting_model.h"
 #include "lyrefit/model/reporting_units.h"
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/observer.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/estimate/fit/intervals.h"
 #include "lyrefit/estimate/fit/refine_fit.h"
 
@@ -41,5 +42,8 @@ struct JudgedFit {
 // otherwise no interval is found. `searched`: best candidate of the search.
 JudgedFit JudgeFit(const RefinedFit& refined, const std::vector<double>& searched, bool usable,
                    const ProgressReporter& progress);
+
+// Warnings about a report, as sentences, most serious first.
+std::vector<std::string> FindWarnings(const FitReport& report);
 
 }  // namespace lyrefit

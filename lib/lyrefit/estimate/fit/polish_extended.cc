@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/estimate/fit/descents.h"
 #include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {

@@ -10,8 +10,6 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/check_readings.h"
-#include "lyrefit/curve/keep_readings.h"
-#include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/usable.h"
 #include "lyrefit/estimate/refine/coarsen.h"
 #include "lyrefit/model/model_points.h"

@@ -6,9 +6,7 @@
 #include <set>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/estimate/refine/coordinates.h"
-#include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/model/kernel.h"

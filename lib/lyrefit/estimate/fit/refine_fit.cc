@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/estimate/fit/intervals.h"
-#include "lyrefit/estimate/fit/polish.h"
 #include "lyrefit/estimate/fit/polish_extended.h"
-#include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/problem.h"
 
 namespace lyrefit {

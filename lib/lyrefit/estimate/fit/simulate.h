@@ -56,7 +56,7 @@ struct SimulateOptions {
   // (V). Not beside effects or a layout.
   bool recombination = false;
   bool force_effects = false;  // also effects that the readings cannot show
-  // Layout of unlike cells (model/string_layout.h); none: all cells have the parameters above.
+  // Layout of unlike cells (model/law.h); none: all cells have the parameters above.
   // Experimental.
   std::shared_ptr<const StringLayout> layout;
   // Independent Gaussian noise of every current; the variances of the two parts add.

@@ -6,11 +6,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "lyrefit/base/largest.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/dark.h"
-#include "lyrefit/curve/find_step.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/model/term.h"
 

@@ -1,4 +1,4 @@
-#include "lyrefit/estimate/fit/warnings.h"
+#include "lyrefit/estimate/fit/judge_fit.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,5 @@
 #include "lyrefit/estimate/refine/error_model.h"
 
-#include <cmath>
-
 namespace lyrefit {
 namespace {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "lyrefit/base/dual.h"
-#include "lyrefit/base/largest.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/estimate/refine/error_model.h"
 #include "lyrefit/model/device_effects.h"

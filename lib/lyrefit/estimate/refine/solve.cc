@@ -3,12 +3,10 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <utility>
 
-#include "lyrefit/estimate/refine/coordinates.h"
 #include "lyrefit/estimate/refine/least_squares.h"
 
 namespace lyrefit {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/base/dense.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/estimate/refine/coordinates.h"
 

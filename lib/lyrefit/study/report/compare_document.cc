@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/report/text_layout.h"
-#include "lyrefit/report/text_parts.h"
 #include "lyrefit/study/report/compare_parts.h"
-#include "lyrefit/study/report/compare_script.h"
 #include "lyrefit/study/report/documents.h"
 
 namespace lyrefit {

@@ -1,14 +1,157 @@
-#include "lyrefit/study/report/compare_json.h"
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
 
 #include "lyrefit/diagnose/diagnosis_documents.h"
+#include "lyrefit/report/csv.h"
 #include "lyrefit/report/json_parts.h"
+#include "lyrefit/study/comparison.h"
+#include "lyrefit/study/problem_summary.h"
 #include "lyrefit/study/report/compare_parts.h"
-#include "lyrefit/study/report/problem_json.h"
-#include "lyrefit/study/report/rank_json.h"
+#include "lyrefit/study/report/documents.h"
+#include "lyrefit/study/verdict.h"
 
 namespace lyrefit {
+namespace {
+
+Json PairsJson(const std::vector<std::string>& names, const Ranking& ranking) {
+  Json list = Json::array();
+  for (const RankPair& pair : ranking.pairs) {
+    list.push_back({{"first", names[pair.first]},
+                    {"second", names[pair.second]},
+                    {"mean_rank_difference", pair.difference},
+                    {"low_95", pair.low_95},
+                    {"high_95", pair.high_95},
+                    {"p_value", pair.p_value},
+                    {"p_sidak", pair.p_sidak},
+                    {"p_holm", pair.p_holm}});
+  }
+  return list;
+}
+
+Json SignedRanksJson(const std::vector<std::string>& names, const Ranking& ranking) {
+  Json list = Json::array();
+  for (const Ranking::SignedRank& pair : ranking.signed_ranks) {
+    const Wilcoxon& test = pair.test;
+    list.push_back({{"first", names[pair.first]},
+                    {"second", names[pair.second]},
+                    {"pairs", test.pairs},
+                    {"zeros", test.zeros},
+                    {"ties", test.ties},
+                    {"rank_sum_plus", test.rank_sum_plus},
+                    {"rank_sum_minus", test.rank_sum_minus},
+                    {"p_value", test.p_value},
+                    {"exact", test.exact},
+                    {"p_normal", test.p_normal},
+                    {"smallest_p", test.smallest_p},
+                    {"p_holm", pair.p_holm}});
+  }
+  return list;
+}
+
+// Friedman's test and every pair of the algorithms with these names. Null if there are no ranks.
+Json RankingJson(const std::vector<std::string>& names, const Ranking& ranking) {
+  if (ranking.friedman.algorithms == 0) return nullptr;
+  return {{"friedman",
+           {{"blocks", ranking.friedman.blocks},
+            {"mean_rank", ranking.friedman.mean_rank},
+            {"chi_square", ranking.friedman.chi_square},
+            {"p_value", ranking.friedman.p_value}}},
+          {"dunn", PairsJson(names, ranking)},
+          {"wilcoxon", SignedRanksJson(names, ranking)}};
+}
+
+}  // namespace
+
+void to_json(Json& j, const Failures& failures) {
+  j = {{"runs", failures.runs},
+       {"local_optima", failures.local_optima},
+       {"commonest",
+        {{"runs", failures.commonest},
+         {"device", failures.commonest_device},
+         {"excess", failures.commonest_excess}}},
+       {"excess", {{"median", failures.median_excess}, {"max", failures.worst_excess}}},
+       {"deviation",
+        {{"median", failures.median_deviation},
+         {"max", failures.worst_deviation},
+         {"parameter", failures.worst_parameter}}}};
+}
+
+void to_json(Json& j, const LevelSummary& level) {
+  const RunSpread& excess = level.excess;
+  j = {{"runs", level.runs},
+       {"hits", level.hits},
+       {"excess",
+        {{"min", excess.min},
+         {"mean", excess.mean},
+         {"median", excess.median},
+         {"max", excess.max},
+         {"std", excess.std}}},
+       {"seconds", level.seconds}};
+  if (level.failures.runs > 0) j["failures"] = level.failures;
+}
+
+// Levels that an algorithm does not have are null.
+void to_json(Json& j, const AlgorithmSummary& compared) {
+  LYREFIT_PUT_FIELDS(j, compared, name, algorithm, kind);
+  j["budget"] = compared.budget > 0 ? Json(compared.budget) : Json();
+  LYREFIT_PUT_FIELDS(j, compared, evaluations, curve_evaluations);
+  j["searched"] = compared.At(PolishLevel::kSearch);
+  j["plain_polished"] = compared.At(PolishLevel::kPlain);
+  j["refined_best_candidate"] = compared.At(PolishLevel::kOwn);
+  j["refined"] = compared.At(PolishLevel::kHybrid);
+}
+
+namespace {
+
+Json AnswerJson(const ProblemSummary& summary) {
+  const std::optional<PeerRatio> ratio = CompareWithPeers(summary);
+  Json answer = {{"sentence", VerdictText(summary)}};
+  if (!ratio || !ratio->peer) return answer;
+  answer["peer"] = {{"name", ratio->peer->algorithm->name},
+                    {"hits", ratio->peer->figures().hits},
+                    {"repeats", ratio->repeats},
+                    {"times_faster", ratio->times},
+                    {"sentence", PeerText(summary)}};
+  return answer;
+}
+
+Json RankingsJson(const std::vector<ProblemSummary>& summaries) {
+  Json list = Json::array();
+  for (const SummaryRanking& ranking : RankProblems(summaries)) {
+    list.push_back({{"problem", ranking.problem.empty() ? Json() : Json(ranking.problem)},
+                    {"budget", ranking.budget},
+                    {"algorithms", ranking.names},
+                    {"searched", RankingJson(ranking.names, ranking.searched)},
+                    {"refined_best_candidate", RankingJson(ranking.names, ranking.own)}});
+  }
+  return list;
+}
+
+// Problems that are summarised over their devices (problem_summary.h), one object each, and
+// the ranks of their searches. Empty object: there are none. Values that depend on wall-clock times
+// are also under a key named `seconds`.
+Json ProblemsJson(const Comparison& comparison) {
+  const std::vector<ProblemSummary> summaries = SummariseProblems(comparison);
+  if (summaries.empty()) return Json::object();
+  Json problems = Json::array();
+  for (const ProblemSummary& summary : summaries) {
+    problems.push_back({{"problem", summary.name},
+                        {"objective", summary.devices[0]->objective},
+                        {"devices", summary.devices.size()},
+                        {"certified", summary.certified},
+                        {"hit_within", kHit},
+                        {"answer", {{"seconds", AnswerJson(summary)}}},
+                        {"algorithms", summary.algorithms}});
+  }
+  return {{"problems", std::move(problems)}, {"rankings", RankingsJson(summaries)}};
+}
+
+}  // namespace
 
 // Null if the stage was not requested.
 void to_json(Json& j, const RunSpread& spread) {
@@ -153,5 +296,38 @@ void to_json(Json& j, const Comparison& comparison) {
 }
 
 std::string CompareJson(const Comparison& comparison) { return Dump(comparison); }
+
+std::string CompareCsv(const Comparison& comparison) {
+  std::string csv =
+      "curve,model,objective,bounds,algorithm,run,seed,searched_A,plain_polished_A,"
+      "refined_best_candidate_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,"
+      "search_seconds,refine_seconds";
+  const bool summarised = std::any_of(comparison.problems.begin(), comparison.problems.end(),
+                                      [](const auto& problem) { return !problem.problem.empty(); });
+  csv += summarised ? ",problem,reference_A,plain_seconds,best_candidate_seconds\n" : "\n";
+  for (const ProblemResult& problem : comparison.problems) {
+    const std::string begin =
+        fmt::format("{},{},{},{}", CsvField(problem.curve_name), ToText(problem.model),
+                    ToText(problem.objective), CsvField(problem.bounds_name));
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      for (const RunRecord& run : compared.runs) {
+        const std::int64_t to_target = run.evaluations_to_target;
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{},{},{}", begin,
+                       CsvField(compared.name), run.run, comparison.options.seed,
+                       CsvField(run.searched_A), CsvField(run.plain_polished_A),
+                       CsvField(run.own_polished_A), CsvField(run.polished_A), run.evaluations,
+                       run.curve_evaluations, to_target < 0 ? "" : std::to_string(to_target),
+                       CsvField(run.search_seconds), CsvField(run.polish_seconds));
+        if (summarised) {
+          fmt::format_to(std::back_inserter(csv), ",{},{},{},{}", CsvField(problem.problem),
+                         CsvField(problem.reference.rmse_A), CsvField(run.plain_seconds),
+                         CsvField(run.own_seconds));
+        }
+        csv += '\n';
+      }
+    }
+  }
+  return csv;
+}
 
 }  // namespace lyrefit

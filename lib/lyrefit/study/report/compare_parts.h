@@ -1,4 +1,5 @@
 #pragma once
+// Elements shared by the documents on comparisons.
 
 #include <functional>
 #include <string>
@@ -6,9 +7,9 @@
 #include <vector>
 
 #include "lyrefit/report/document.h"
+#include "lyrefit/report/figure.h"
 #include "lyrefit/study/comparison.h"
 
-// Elements shared by the documents on comparisons.
 namespace lyrefit {
 
 // A column of a table: its head, and the text of a row's cell. The first one is left-aligned.
@@ -68,9 +69,14 @@ void AddSetUp(const Comparison& comparison, Section* section);
 // A section titled with the problem, with a field that describes the reference.
 Section ProblemSection(const Comparison& comparison, const ProblemResult& problem);
 
-// Defined in compare_ranks.cc: Friedman's and Wilcoxon's tests of one problem, and one sentence on
+// Friedman's and Wilcoxon's tests of one problem, and one sentence on
 // the ranking after the polish. Each has no blocks if there is no result.
 Section RankSection(const ProblemResult& problem);
 Section PolishVerdict(const ProblemResult& problem);
+
+// Figures of a comparison, one panel for each problem; documents.h describes them. At least one
+// problem is required.
+Figure BoxFigure(const Comparison& comparison);
+Figure ConvergenceFigure(const Comparison& comparison);
 
 }  // namespace lyrefit

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "cases.h"
 #include "lyrefit/read/rewrite_table.h"
@@ -34,25 +33,6 @@ std::string Told(const TableLayout& layout) {
   told.Add(Told(layout.head.said));
   told.Add(Told(layout.assumptions));
   return told.Text();
-}
-
-// Splits "[column: 2] V1,I1,V2,I2": options, then the table.
-std::pair<std::string, ReadOptions> WithOptions(std::string text) {
-  ReadOptions options;
-  const std::size_t end = text.find("] ");
-  if (text[0] != '[' || end == std::string::npos) return {std::move(text), options};
-  std::string list = text.substr(1, end - 1) + "; ";
-  text = text.substr(end + 2);
-  for (std::size_t next; (next = list.find("; ")) != std::string::npos;
-       list = list.substr(next + 2)) {
-    const std::size_t colon = list.find(": ");
-    const std::string name = list.substr(0, colon),
-                      value = list.substr(colon + 2, next - colon - 2);
-    (name == "voltage"   ? options.voltage_column
-     : name == "current" ? options.current_column
-                         : options.column) = value;
-  }
-  return {std::move(text), options};
 }
 
 TEST(ReadTableTest, ReadsWhatIsWrittenAndRefusesTheRest) {

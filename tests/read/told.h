@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_table.h"
 #include "lyrefit/read/sidecar.h"
+#include "temp_folder.h"
 
 // What a reader took, in words, for the cases in tests/golden.
 namespace lyrefit {
@@ -122,17 +125,25 @@ inline std::string Told(const IvCurve& curve) {
   const Conditions& at = curve.conditions;
   ToldValues told;
   told.Add("curve", curve.name);
+  told.Add("of", curve.source);
   told.Add(fmt::format("cells {}{}, strings {}, {:.8g} C{}, {:.8g} W/m2{}", at.cells_in_series,
                        curve.cells_known ? "" : "?", at.strings_in_parallel,
                        at.cell_temperature_K - 273.15, curve.temperature_known ? "" : "?",
                        at.irradiance_W_m2, curve.irradiance_known ? "" : "?"));
   told.Add(Told(curve.notes));
+  if (curve.key_points) {
+    const KeyPoints& key = *curve.key_points;
+    told.Add("key points " +
+             Numbers(std::vector<double>{key.short_circuit_current_A, key.open_circuit_voltage_V,
+                                         key.max_power_current_A, key.max_power_voltage_V,
+                                         key.max_power_W}));
+  }
   told.Add(ToldReadings(curve));
   return told.Text();
 }
 
 inline std::string Told(const CurveSet& set) {
-  std::string text = "set '" + set.name + "'";
+  std::string text = "set '" + set.name + "' of " + set.source;
   if (!set.assumptions.empty()) text += ": " + Told(set.assumptions);
   for (const IvCurve& curve : set.curves) text += "\n  " + Told(curve);
   for (const RejectedCurve& one : set.rejected) {
@@ -152,6 +163,51 @@ std::string Told(const std::vector<T>& all) {
 template <class T>
 std::string ToldOrError(const Expected<T>& result) {
   return result ? Told(*result) : "error " + result.error().ToString();
+}
+
+// Splits "[column: 2] V1,I1,V2,I2": options, then the text.
+inline std::pair<std::string, ReadOptions> WithOptions(std::string text) {
+  ReadOptions options;
+  const std::size_t end = text.find("] ");
+  if (text[0] != '[' || end == std::string::npos || text.find(": ") > end) return {text, options};
+  std::string list = text.substr(1, end - 1) + "; ";
+  text = text.substr(end + 2);
+  for (std::size_t next; (next = list.find("; ")) != std::string::npos;
+       list = list.substr(next + 2)) {
+    const std::size_t colon = list.find(": ");
+    const std::string name = list.substr(0, colon),
+                      value = list.substr(colon + 2, next - colon - 2);
+    if (name == "voltage") options.voltage_column = value;
+    if (name == "current") options.current_column = value;
+    if (name == "column") options.column = value;
+    if (name == "curve") options.curve = std::stoi(value);
+    if (name == "isc") options.isc_A = std::stod(value);
+  }
+  return {text, options};
+}
+
+// Of a case "[curve: 5] PATH | FILE: TEXT | FILE: TEXT": writes the files, then calls `read` with the
+// path and the options. Paths are told without the folder.
+template <class Read>
+std::string OfFiles(const std::string& given, const Read& read) {
+  const TempFolder folder;
+  const auto [text, options] = WithOptions(given);
+  const std::size_t path_end = text.find(" | ");
+  for (std::size_t at = path_end; at != std::string::npos;) {
+    const std::size_t next = text.find(" | ", at + 3), colon = text.find(": ", at);
+    const std::string name = text.substr(at + 3, colon - at - 3);
+    if (name.back() == '/') {
+      std::filesystem::create_directories(folder.Path(name));
+    } else {
+      folder.Write(name,
+                   text.substr(colon + 2, next == std::string::npos ? next : next - colon - 2));
+    }
+    at = next;
+  }
+  std::string told = read(folder.Path(text.substr(0, path_end)), options);
+  const std::string own = folder.Path("");
+  for (std::size_t at; (at = told.find(own)) != std::string::npos;) told.erase(at, own.size());
+  return told;
 }
 
 }  // namespace lyrefit

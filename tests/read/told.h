@@ -205,8 +205,9 @@ std::string OfFiles(const std::string& given, const Read& read) {
     at = next;
   }
   std::string told = read(folder.Path(text.substr(0, path_end)), options);
-  const std::string own = folder.Path("");
-  for (std::size_t at; (at = told.find(own)) != std::string::npos;) told.erase(at, own.size());
+  for (const std::string& own : {folder.Path(""), folder.Path("").substr(1)}) {
+    for (std::size_t at; (at = told.find(own)) != std::string::npos;) told.erase(at, own.size());
+  }
   return told;
 }
 

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <numeric>
+#include <map>
+#include <string>
 #include <utility>
 
+#include "cases.h"
 #include "error_of.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/left_temperature.h"
@@ -66,169 +68,99 @@ TEST(CheckReadingsTest, ATemperatureOfTheHeadThatIsNotUsedIsADoubt) {
   EXPECT_THAT(CheckReadings(curve), IsEmpty());
 }
 
+// Ways in which the readings of a module are spoilt.
+const std::map<std::string, std::function<void(IvCurve*)>> kSpoilt = {
+    {"Keithley's overflow", [](IvCurve* c) { c->current_A[5] = 9.91e37; }},
+    {"two overflows", [](IvCurve* c) { c->voltage_V[2] = c->voltage_V[9] = 1e308; }},
+    {"all zero", [](IvCurve* c) { c->current_A.assign(100, 0); }},
+    {"all equal", [](IvCurve* c) { c->current_A.assign(100, 0.5); }},
+    {"below any instrument",
+     [](IvCurve* c) {
+       for (double& i : c->current_A) i *= 1e-70;
+     }},
+    {"voltage of the wrong sign",
+     [](IvCurve* c) {
+       for (double& v : c->voltage_V) v = -v;
+     }},
+    {"milliampere",
+     [](IvCurve* c) {
+       for (double& i : c->current_A) i *= 1e3;
+       c->current_unit_known = false;
+     }},
+    {"registers",
+     [](IvCurve* c) {
+       for (double& v : c->voltage_V) v = std::round(1e3 * v);
+       c->voltage_unit_known = false;
+     }},
+    {"millivolt",
+     [](IvCurve* c) {
+       for (double& v : c->voltage_V) v *= 1e3;
+       c->voltage_unit_known = false;
+     }},
+    {"nothing delivers so much",
+     [](IvCurve* c) {
+       for (double& i : c->current_A) i *= 1e5;
+     }},
+    {"columns exchanged, no units",
+     [](IvCurve* c) {
+       std::swap(c->voltage_V, c->current_A);
+       c->current_unit_known = c->voltage_unit_known = c->cells_known = false;
+       c->conditions.cells_in_series = 1;
+     }},
+    {"columns exchanged, cells known", [](IvCurve* c) { std::swap(c->voltage_V, c->current_A); }},
+    {"columns exchanged, units named",
+     [](IvCurve* c) {
+       std::swap(c->voltage_V, c->current_A);
+       c->cells_known = false;
+       c->conditions.cells_in_series = 1;
+     }},
+    {"too many cells", [](IvCurve* c) { c->conditions.cells_in_series = 600; }},
+    {"too few cells", [](IvCurve* c) { c->conditions.cells_in_series = 10; }},
+    {"cells not stated",
+     [](IvCurve* c) {
+       c->conditions.cells_in_series = 1;
+       c->cells_known = false;
+     }},
+    {"a cell in millivolt without a unit",
+     [](IvCurve* c) {
+       c->conditions.cells_in_series = 1;
+       c->cells_known = c->voltage_unit_known = false;
+       for (double& v : c->voltage_V) v *= 1e3 / 60;
+     }},
+    {"one stated cell with the voltage of two junctions",
+     [](IvCurve* c) {
+       c->conditions.cells_in_series = 1;
+       ScaleVoc(1.73, c);
+     }},
+    {"cells not stated, and the voltage of two junctions",
+     [](IvCurve* c) {
+       c->conditions.cells_in_series = 1;
+       c->cells_known = false;
+       ScaleVoc(1.73, c);
+     }},
+    {"cells not stated, and a sweep that ends before open circuit",
+     [](IvCurve* c) {
+       c->conditions.cells_in_series = 1;
+       c->cells_known = false;
+       while (c->current_A.back() < 0.3 * c->current_A.front()) {
+         c->current_A.pop_back();
+         c->voltage_V.pop_back();
+       }
+     }},
+};
+
 TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
-  const struct {
-    const char* what;
-    const char* id;
-    bool refuse;
-    std::vector<const char*> says;
-    std::function<void(IvCurve*)> spoil;
-  } kCases[] = {
-      {"Keithley's overflow",
-       "overflow",
-       true,
-       {"reading 6 ", "9.91e+37 A", "--skip-missing"},
-       [](IvCurve* c) { c->current_A[5] = 9.91e37; }},
-      {"two overflows",
-       "overflow",
-       true,
-       {"of reading 3 and of 1 more", "1e+308 V"},
-       [](IvCurve* c) { c->voltage_V[2] = c->voltage_V[9] = 1e308; }},
-      {"all zero",
-       "nothing",
-       true,
-       {"all 100 currents are 0", "?"},
-       [](IvCurve* c) { c->current_A.assign(100, 0); }},
-      {"all equal",
-       "nothing",
-       true,
-       {"all 100 currents are 0.5 A", "limit"},
-       [](IvCurve* c) { c->current_A.assign(100, 0.5); }},
-      {"below any instrument",
-       "nothing",
-       true,
-       {"less than any instrument", "unit"},
-       [](IvCurve* c) {
-         for (double& i : c->current_A) i *= 1e-70;
-       }},
-      {"voltage of the wrong sign",
-       "sign",
-       true,
-       {"at -39 V", "wrong sign"},
-       [](IvCurve* c) {
-         for (double& v : c->voltage_V) v = -v;
-       }},
-      {"milliampere",
-       "unit",
-       true,
-       {"A and the file names no unit: milliampere?", "--current-unit mA"},
-       [](IvCurve* c) {
-         for (double& i : c->current_A) i *= 1e3;
-         c->current_unit_known = false;
-       }},
-      {"registers",
-       "unit",
-       true,
-       {"registers, in tenths of a volt (--voltage-unit 0.1V)?"},
-       [](IvCurve* c) {
-         for (double& v : c->voltage_V) v = std::round(1e3 * v);
-         c->voltage_unit_known = false;
-       }},
-      {"millivolt",
-       "unit",
-       true,
-       {"3.9e+04 V", "millivolt?", "--voltage-unit mV"},
-       [](IvCurve* c) {
-         for (double& v : c->voltage_V) v *= 1e3;
-         c->voltage_unit_known = false;
-       }},
-      {"nothing delivers so much",
-       "unit",
-       true,
-       {"is the unit"},
-       [](IvCurve* c) {
-         for (double& i : c->current_A) i *= 1e5;
-       }},
-      {"columns exchanged, no units",
-       "exchanged",
-       true,
-       {"columns are exchanged", "--voltage-column"},
-       [](IvCurve* c) {
-         std::swap(c->voltage_V, c->current_A);
-         c->current_unit_known = c->voltage_unit_known = c->cells_known = false;
-         c->conditions.cells_in_series = 1;
-       }},
-      {"columns exchanged, cells known",
-       "exchanged",
-       true,
-       {"columns are exchanged"},
-       [](IvCurve* c) { std::swap(c->voltage_V, c->current_A); }},
-      {"columns exchanged, units named",
-       "exchanged",
-       false,
-       {"columns are exchanged"},
-       [](IvCurve* c) {
-         std::swap(c->voltage_V, c->current_A);
-         c->cells_known = false;
-         c->conditions.cells_in_series = 1;
-       }},
-      {"too many cells",
-       "cells",
-       true,
-       {"for each of 600 stated cells", "give --cells 60?"},
-       [](IvCurve* c) { c->conditions.cells_in_series = 600; }},
-      {"too few cells",
-       "cells",
-       true,
-       {" V for each of 10 stated cells", "give --cells 60?"},
-       [](IvCurve* c) { c->conditions.cells_in_series = 10; }},
-      {"cells not stated",
-       "cells",
-       false,
-       {"some 60 cells in series?", "--cells"},
-       [](IvCurve* c) {
-         c->conditions.cells_in_series = 1;
-         c->cells_known = false;
-       }},
-      {"a cell in millivolt without a unit",
-       "cells",
-       false,
-       {"millivolt (--voltage-unit mV)? or some", "cells in series (--cells)?"},
-       [](IvCurve* c) {
-         c->conditions.cells_in_series = 1;
-         c->cells_known = c->voltage_unit_known = false;
-         for (double& v : c->voltage_V) v *= 1e3 / 60;
-       }},
-      {"one stated cell with the voltage of two junctions",
-       "cells",
-       true,
-       {"1.73", "cells in series forgotten (--cells 3)", "tandem", "wide band gap"},
-       [](IvCurve* c) {
-         c->conditions.cells_in_series = 1;
-         ScaleVoc(1.73, c);
-       }},
-      {"cells not stated, and the voltage of two junctions",
-       "cells",
-       false,
-       {"some 3 cells in series, or", "tandem", "(--cells)"},
-       [](IvCurve* c) {
-         c->conditions.cells_in_series = 1;
-         c->cells_known = false;
-         ScaleVoc(1.73, c);
-       }},
-      {"cells not stated, and a sweep that ends before open circuit",
-       "cells",
-       false,
-       {"the curve goes to", "--cells"},
-       [](IvCurve* c) {
-         c->conditions.cells_in_series = 1;
-         c->cells_known = false;
-         while (c->current_A.back() < 0.3 * c->current_A.front()) {
-           c->current_A.pop_back();
-           c->voltage_V.pop_back();
-         }
-       }},
-  };
-  for (const auto& c : kCases) {
-    SCOPED_TRACE(c.what);
-    IvCurve curve = SyntheticModule();
-    c.spoil(&curve);
-    const auto findings = CheckReadings(curve);
-    ASSERT_FALSE(findings.empty());
-    EXPECT_EQ(findings[0].id, c.id);
-    EXPECT_EQ(findings[0].refuse, c.refuse);
-    for (const char* text : c.says) EXPECT_THAT(findings[0].sentence, HasSubstr(text));
-  }
+  CheckCases("curve_readings", {{"module that is spoilt", [](const std::string& what) {
+                                   IvCurve curve = SyntheticModule();
+                                   kSpoilt.at(what)(&curve);
+                                   std::string told;
+                                   for (const ReadingFinding& finding : CheckReadings(curve)) {
+                                     told += (told.empty() ? "" : "; ") + finding.id +
+                                             (finding.refuse ? " refused: " : ": ") +
+                                             finding.sentence;
+                                   }
+                                   return told;
+                                 }}});
 }
 
 TEST(CheckReadingsTest, OverflowsAreNamedByTheirReadings) {

@@ -186,29 +186,37 @@ inline std::pair<std::string, ReadOptions> WithOptions(std::string text) {
   return {text, options};
 }
 
-// Of a case "[curve: 5] PATH | FILE: TEXT | FILE: TEXT": writes the files, then calls `read` with the
-// path and the options. Paths are told without the folder.
-template <class Read>
-std::string OfFiles(const std::string& given, const Read& read) {
-  const TempFolder folder;
-  const auto [text, options] = WithOptions(given);
-  const std::size_t path_end = text.find(" | ");
-  for (std::size_t at = path_end; at != std::string::npos;) {
-    const std::size_t next = text.find(" | ", at + 3), colon = text.find(": ", at);
-    const std::string name = text.substr(at + 3, colon - at - 3);
+// Writes the files of a case "TEXT | FILE: CONTENT | FOLDER/:" and returns the text.
+inline std::string WithFiles(const std::string& given, const TempFolder& folder) {
+  const std::size_t end = given.find(" | ");
+  for (std::size_t at = end; at != std::string::npos;) {
+    const std::size_t next = given.find(" | ", at + 3), colon = given.find(": ", at);
+    const std::string name = given.substr(at + 3, colon - at - 3);
     if (name.back() == '/') {
       std::filesystem::create_directories(folder.Path(name));
     } else {
       folder.Write(name,
-                   text.substr(colon + 2, next == std::string::npos ? next : next - colon - 2));
+                   given.substr(colon + 2, next == std::string::npos ? next : next - colon - 2));
     }
     at = next;
   }
-  std::string told = read(folder.Path(text.substr(0, path_end)), options);
+  return given.substr(0, end);
+}
+
+// A text without the path of the folder.
+inline std::string Without(const TempFolder& folder, std::string text) {
   for (const std::string& own : {folder.Path(""), folder.Path("").substr(1)}) {
-    for (std::size_t at; (at = told.find(own)) != std::string::npos;) told.erase(at, own.size());
+    for (std::size_t at; (at = text.find(own)) != std::string::npos;) text.erase(at, own.size());
   }
-  return told;
+  return text;
+}
+
+// Of a case "[curve: 5] PATH | FILE: CONTENT": what `read` tells of the path and the options.
+template <class Read>
+std::string OfFiles(const std::string& given, const Read& read) {
+  const TempFolder folder;
+  const auto [text, options] = WithOptions(given);
+  return Without(folder, read(folder.Path(WithFiles(text, folder)), options));
 }
 
 }  // namespace lyrefit

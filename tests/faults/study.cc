@@ -89,7 +89,7 @@ constexpr const char* kUsage =
     "fault_study MODE [--kind fwd|rev|updown|dark|famG|famGT|all] [--effect ID|all] [--cases N]\n"
     "             [--probability P] [--seed N] [--threads N] [--csv FILE]\n"
     "             [--rows FILE] [--number I]\n"
-    "MODE: silence, power, pairs, confusion, size, show\n"
+    "MODE: silence, power, pairs, show\n"
     "fault_study calibration [--asked laboratory|field | --real FOLDER] [--cases N] [--csv FILE]\n"
     "fault_study field [--effect KIND|all] [--cases N] [--misfit-above PERCENT] [--rows FILE]\n"
     "             [--show KIND --number I] [--dump FOLDER]\n";
@@ -130,8 +130,7 @@ int main(int argc, char** argv) {
   using namespace faults;
   const std::map<std::string, int (*)(const StudyOptions&)> modes = {
       {"silence", StudySilence}, {"power", StudyPower},
-      {"pairs", StudyPairs},     {"confusion", StudyConfusion},
-      {"size", StudySize},       {"show", ShowCase},
+      {"pairs", StudyPairs},     {"show", ShowCase},
       {"field", StudyField},     {"calibration", StudyCalibration}};
   StudyOptions options;
   if (!Read(argc, argv, &options) || modes.count(options.mode) == 0) {

@@ -38,10 +38,6 @@ int StudySilence(const StudyOptions& options);
 int StudyPower(const StudyOptions& options);
 // How often both of two simultaneous effects are named.
 int StudyPairs(const StudyOptions& options);
-// First names claimed for each effect with a misfit of at least 7 noise standard deviations.
-int StudyConfusion(const StudyOptions& options);
-// How often the 95 % interval of the size of a named effect contains the truth.
-int StudySize(const StudyOptions& options);
 // Field simulator (field_*.h): rates of cases with a claim, of right names and of spurious claims,
 // and the errors of lights and shares. Or writes its cases as tables. `effect` is a kind of
 // field_case.h.

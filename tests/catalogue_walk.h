@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "draw.h"
+#include "synthetic/draw.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device_effects.h"

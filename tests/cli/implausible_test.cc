@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "curve/synthetic_curve.h"
+#include "synthetic/curves.h"
 #include "repeats.h"
 #include "run_app.h"
 

@@ -12,7 +12,7 @@
 #include "error_of.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/left_temperature.h"
-#include "synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

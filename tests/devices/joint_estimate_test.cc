@@ -7,8 +7,9 @@
 #include <map>
 
 #include "lyrefit/devices/describe_cell.h"
+#include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
-#include "made_cell.h"
+#include "synthetic/curves.h"
 #include "repeats.h"
 
 namespace lyrefit {

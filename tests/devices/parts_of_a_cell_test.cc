@@ -7,7 +7,7 @@
 #include "lyrefit/devices/cell_figures.h"
 #include "lyrefit/devices/compare_stated.h"
 #include "lyrefit/devices/describe_sweep.h"
-#include "made_cell.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

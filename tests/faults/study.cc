@@ -1,31 +1,18 @@
 #include "faults/study.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <map>
-#include <thread>
 
 namespace faults {
 
 Mode ModeOf(const StudyOptions& options) {
   const bool field = options.asked.empty() ? options.mode == "field" : options.asked == "field";
   return field ? Mode::kField : Mode::kLaboratory;
-}
-
-void ForEach(int count, int threads, const std::function<void(int)>& body) {
-  if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
-  std::atomic<int> next{0};
-  std::vector<std::thread> workers;
-  for (int t = 0; t < std::max(1, std::min(threads, count)); ++t) {
-    workers.emplace_back([&] {
-      for (int i = next++; i < count; i = next++) body(i);
-    });
-  }
-  for (std::thread& worker : workers) worker.join();
 }
 
 double Percent(int part, int whole) {
@@ -129,9 +116,8 @@ bool Read(int argc, char** argv, StudyOptions* options) {
 int main(int argc, char** argv) {
   using namespace faults;
   const std::map<std::string, int (*)(const StudyOptions&)> modes = {
-      {"silence", StudySilence}, {"power", StudyPower},
-      {"pairs", StudyPairs},     {"show", ShowCase},
-      {"field", StudyField},     {"calibration", StudyCalibration}};
+      {"silence", StudySilence}, {"power", StudyPower}, {"pairs", StudyPairs},
+      {"show", ShowCase},        {"field", StudyField}, {"calibration", StudyCalibration}};
   StudyOptions options;
   if (!Read(argc, argv, &options) || modes.count(options.mode) == 0) {
     std::fputs(kUsage, stderr);

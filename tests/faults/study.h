@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 
 #include <vector>
 #include "faults/adapter.h"
-
+#include "faults/for_each.h"
 #include "faults/score.h"
 
 namespace faults {
@@ -49,9 +48,6 @@ int StudyCalibration(const StudyOptions& options);
 // Writes one case of `power` or, without an effect, of `silence` as a table of readings. The causes
 // and the answer go to standard error.
 int ShowCase(const StudyOptions& options);
-
-// Calls body(0) .. body(count - 1) in parallel. Each call must write only to its own slot.
-void ForEach(int count, int threads, const std::function<void(int)>& body);
 
 // A simulated case and its answer. `made` is false if none of the drawn devices could have the
 // effect.

@@ -5,7 +5,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
-#include "draw.h"
+#include "synthetic/draw.h"
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/model/kernel.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "draw.h"
+#include "synthetic/draw.h"
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"

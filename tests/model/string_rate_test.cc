@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "draw.h"
+#include "synthetic/draw.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/model/kernel.h"
 #include "repeats.h"

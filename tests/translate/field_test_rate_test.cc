@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "../draw.h"
+#include "synthetic/draw.h"
 #include "../repeats.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"

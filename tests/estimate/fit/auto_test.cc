@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "estimate/fit/simulated.h"
+#include "synthetic/curves.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/held_out.h"
 #include "lyrefit/read/read_curve.h"

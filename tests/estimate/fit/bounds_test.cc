@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "estimate/fit/simulated.h"
+#include "lyrefit/model/kernel.h"
+#include "synthetic/curves.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/settings/bounds_file.h"
 #include "temp_folder.h"

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "estimate/fit/simulated.h"
+#include "lyrefit/model/kernel.h"
+#include "synthetic/curves.h"
 #include "lyrefit/read/read_curve.h"
 #include "repeats.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "estimate/fit/simulated.h"
+#include "synthetic/curves.h"
 #include "lyrefit/estimate/fit/fit.h"
 
 namespace lyrefit {

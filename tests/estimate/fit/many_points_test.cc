@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "estimate/fit/simulated.h"
+#include "synthetic/curves.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "repeats.h"

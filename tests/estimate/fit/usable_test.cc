@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "curve/synthetic_curve.h"
+#include "lyrefit/model/kernel.h"
+#include "synthetic/curves.h"
 #include "error_of.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"

@@ -75,7 +75,9 @@ TEST(DescribeVerdict, SaysHowProbableACauseIsAndWhatIsLeft) {
   parts.mechanisms[0].probability = 0.9;
   add("a finding of one part", Told(With({parts}, 0.002)));
   add("no cause fits", Told(With({NamedCause("unknown_structure")}, 0.05)));
-  add("silence", Told({}));
+  Verdict silent;
+  silent.lack_of_fit.value = 0.001;
+  add("silence", Told(silent));
   add("a leak", Told({}, {{"leak", "", {0.031, 0.029, 0.033}, 0.016, 0.04, "", false, {}}}));
   Verdict misses;
   misses.lack_of_fit.value = 0.0056;

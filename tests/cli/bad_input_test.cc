@@ -72,7 +72,16 @@ TEST(BadInput, NamesTheFlagThatIsWrong) {
   ExpectRefusals("fit " + kRtc + " ", {{"--cells 1.5", "--cells"},
                                        {"--iterations abc", "--iterations"},
                                        {"--nonsense", "--nonsense"},
-                                       {"--kernel sse", "portable"}});
+                                       {"--kernel sse", "portable"},
+                                       {"--temperature-C 47,3", "point: 47.3)"},
+                                       {"--family cec --temperature-accuracy 99", "accuracy: "},
+                                       {"--family desoto --folds -1", "--folds: "},
+                                       {"--family desoto --search-curves 1", "--search-curves: "},
+                                       {"--threads -3", "--threads: "}});
+  ExpectRefusals("compare " + kRtc + " ", {{"--runs many", "--runs"},
+                                           {"--threads -3", "--threads: "},
+                                           {"--threads 5000", "--threads: "}});
+  ExpectRefusals("diagnose " + kRtc, {{" --threads -3", "--threads: "}});
   ExpectRefusals("datasheet --isc 4.75 --cells 0", {{"", "--cells"}});
 }
 

@@ -218,26 +218,6 @@ TEST(Fit, WeighsByErrorsThatAreFoundOrStated) {
   EXPECT_THAT(text.out, HasSubstr("its plain RMSE is not the lowest"));
 }
 
-TEST(Fit, RefusesErrorsItCannotWeighBy) {
-  const TempFolder folder;
-  const std::string file = folder.Write("errors.json", "{\n\"current_noise_A\": -1}");
-  for (const auto& [flags, sentence] :
-       {std::pair<std::string, std::string>{"--noise " + file,
-                                            "errors.json:2:1: expected a number"},
-        {"--noise nothing.json", "nothing.json"},
-        {"--noise field --objective measured-current", "solved current alone"},
-        {"--noise field --no-polish", "switched off"},
-        {"--noise field --loss huber", "leave out loss"}}) {
-    const AppResult result = RunApp("fit " + kRtc + " " + flags);
-    EXPECT_EQ(result.exit_code, 1) << flags;
-    EXPECT_THAT(result.err, HasSubstr(sentence)) << flags;
-  }
-  const AppResult family = RunApp("fit " + std::string(LYREFIT_DATA_DIR) +
-                                  "/s75_constructed --family desoto --noise field");
-  EXPECT_EQ(family.exit_code, 1);
-  EXPECT_THAT(family.err, HasSubstr("--noise"));
-}
-
 TEST(Fit, EndsWith2WhereTheFitIsNotUsable) {
   // The search may only use an Iph far below the measured one.
   const AppResult result = RunApp(

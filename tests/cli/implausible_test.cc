@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "synthetic/curves.h"
 #include "repeats.h"
 #include "run_app.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

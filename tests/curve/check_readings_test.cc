@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "error_of.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/left_temperature.h"
+#include "lyrefit/curve/plausibility.h"
 #include "synthetic/curves.h"
 
 namespace lyrefit {
@@ -34,6 +36,15 @@ TEST(CheckReadingsTest, SoundCurvesHaveNoFindings) {
   EXPECT_THAT(CheckReadings(SyntheticModule(1, 1, 0.5)), IsEmpty());
   EXPECT_THAT(CheckReadings(SyntheticCell()), IsEmpty());
   EXPECT_THAT(CheckReadings(SyntheticCell(0)), IsEmpty());  // dark
+}
+
+TEST(CheckReadingsTest, AnImplausibleCurrentIsDoubtedButNotRefused) {
+  IvCurve curve = SyntheticModule();
+  for (double& i : curve.current_A) i *= 30;
+  const auto findings = CheckReadings(curve);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].id, "current");
+  EXPECT_FALSE(findings[0].refuse);
 }
 
 TEST(CheckReadingsTest, LightThatIsNotStatedIsDoubted) {
@@ -149,18 +160,69 @@ const std::map<std::string, std::function<void(IvCurve*)>> kSpoilt = {
      }},
 };
 
+std::string Spoilt(const std::string& what) {
+  IvCurve curve = SyntheticModule();
+  kSpoilt.at(what)(&curve);
+  std::string told;
+  for (const ReadingFinding& finding : CheckReadings(curve)) {
+    told += (told.empty() ? "" : "; ") + finding.id + (finding.refuse ? " refused: " : ": ") +
+            finding.sentence;
+  }
+  return told;
+}
+
+// Magnitudes of a curve, as in "isc 9, light 800".
+const std::map<std::string, std::function<void(double, IvCurve*)>> kMagnitudes = {
+    {"isc",
+     [](double isc_A, IvCurve* c) {
+       for (double& i : c->current_A) i *= isc_A;
+     }},
+    {"cells", [](double n, IvCurve* c) { c->conditions.cells_in_series = static_cast<int>(n); }},
+    {"strings",
+     [](double n, IvCurve* c) { c->conditions.strings_in_parallel = static_cast<int>(n); }},
+    {"light", [](double light, IvCurve* c) { c->conditions.irradiance_W_m2 = light; }},
+    {"celsius", [](double t, IvCurve* c) { c->conditions.cell_temperature_K = 273.15 + t; }},
+    {"area", [](double cm2, IvCurve* c) { c->notes.area_cm2 = cm2; }},
+    {"light known", [](double known, IvCurve* c) { c->irradiance_known = known != 0; }},
+    {"cells known", [](double known, IvCurve* c) { c->cells_known = known != 0; }}};
+
+// Why the results of a curve would be unreliable: "KIND: MAGNITUDE NUMBER, ...", with "rated W" for the
+// rated power. A module has 60 cells and an Isc of 1 A at 800 W/m2.
+std::string Implausible(const std::string& what) {
+  const std::string kind = what.substr(0, what.find(':'));
+  IvCurve curve = SyntheticCell();
+  if (kind != "cell") {
+    curve.conditions.cells_in_series = 60;
+    curve.conditions.irradiance_W_m2 = 800;
+    curve.voltage_V = {0, 10, 20, 30, 36};
+    curve.current_A = {1.0, 0.99, 0.98, 0.8, 0.0};
+  }
+  if (kind == "rectangle") {
+    curve.voltage_V = {0, 10, 20, 35, 36, 37};
+    curve.current_A = {1, 1, 1, 1, 1, -0.1};
+  } else if (kind == "hollow") {
+    curve.voltage_V = {0, 1, 2, 3, 4, 30};
+    curve.current_A = {1, 0.5, 0.25, 0.125, 0.05, -0.001};
+  }
+  std::optional<double> rated_W;
+  for (std::size_t at = what.find(':'); at != std::string::npos;) {
+    const std::size_t next = what.find(',', at + 1);
+    const std::string one = what.substr(at + 2, next == std::string::npos ? next : next - at - 2);
+    const std::size_t space = one.rfind(' ');
+    const double value = std::stod(one.substr(space + 1));
+    if (one.rfind("rated ", 0) == 0) {
+      rated_W = value;
+    } else {
+      kMagnitudes.at(one.substr(0, space))(value, &curve);
+    }
+    at = next;
+  }
+  return PlausibilityProblem(curve, rated_W).value_or("");
+}
+
 TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
-  CheckCases("curve_readings", {{"module that is spoilt", [](const std::string& what) {
-                                   IvCurve curve = SyntheticModule();
-                                   kSpoilt.at(what)(&curve);
-                                   std::string told;
-                                   for (const ReadingFinding& finding : CheckReadings(curve)) {
-                                     told += (told.empty() ? "" : "; ") + finding.id +
-                                             (finding.refuse ? " refused: " : ": ") +
-                                             finding.sentence;
-                                   }
-                                   return told;
-                                 }}});
+  CheckCases("curve_readings",
+             {{"module that is spoilt", Spoilt}, {"implausible magnitudes", Implausible}});
 }
 
 TEST(CheckReadingsTest, OverflowsAreNamedByTheirReadings) {

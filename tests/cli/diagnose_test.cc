@@ -144,10 +144,6 @@ TEST(DiagnoseVerb, ExplainsEveryEffectOfTheList) {
 TEST(DiagnoseVerb, WritesWholeDiagnosesAsJson) {
   const json j = json::parse(RunApp(kVerb + "--folds 4 --json -").out, nullptr, false);
   ASSERT_TRUE(j.is_object());
-  for (const char* key : {"evidence", "trials", "verdict", "gain", "points", "curves", "seed",
-                          "probability", "warnings"}) {
-    EXPECT_TRUE(j.contains(key)) << key;
-  }
   EXPECT_EQ(j["points"]["voltage_V"].size(), 26U);
   EXPECT_GT(j["trials"].size(), 20U);
   EXPECT_TRUE(j["verdict"]["causes"].is_array());

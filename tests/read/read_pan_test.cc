@@ -12,6 +12,7 @@
 #include "error_of.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
+#include "lyrefit/read/cec_library.h"
 #include "lyrefit/read/read_module.h"
 #include "read/pan_text.h"
 #include "temp_folder.h"
@@ -109,6 +110,18 @@ std::string WarningsOf(const Expected<Module>& module, std::vector<std::string> 
   return told;
 }
 
+// Rows of SAM's library of modules: "MODULE | ROWS", or the rows of the only one.
+std::string Library(const std::string& text) {
+  const std::size_t bar = text.find(" | ");
+  const std::string head =
+      "Name,N_s,alpha_sc,a_ref,I_L_ref,I_o_ref,R_s,R_sh_ref,Adjust\n"
+      "Units,,A/K,V,A,A,Ohm,Ohm,%\n[0],a,b,c,d,e,f,g,h\n";
+  return WarningsOf(
+      ReadCecParameters(head + text.substr(bar == std::string::npos ? 0 : bar + 3), "bad.csv",
+                        bar == std::string::npos ? "" : text.substr(0, bar)),
+      &NamedParameters::warnings);
+}
+
 TEST(ReadModules, WarnOfWhatDoesNotAgreeAndRefuseTheRest) {
   const auto parameters = [](const PanLines& lines) {
     return [&lines](const std::string& changes) {
@@ -134,7 +147,8 @@ TEST(ReadModules, WarnOfWhatDoesNotAgreeAndRefuseTheRest) {
                                      &ModuleSheet::assumptions);
                                }},
                               {"file", file("bad.PAN")},
-                              {"pvlib", file("bad.json")}});
+                              {"pvlib", file("bad.json")},
+                              {"cec", Library}});
 }
 
 TEST(ReadModules, RefuseAFileThatIsTooLarge) {

@@ -9,8 +9,8 @@
 #include "lyrefit/devices/describe_cell.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
-#include "synthetic/curves.h"
 #include "repeats.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

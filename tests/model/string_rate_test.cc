@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "synthetic/draw.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/model/kernel.h"
 #include "repeats.h"
+#include "synthetic/draw.h"
 
 namespace lyrefit {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "lyrefit/model/kernel.h"
-#include "synthetic/curves.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/settings/bounds_file.h"
+#include "synthetic/curves.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

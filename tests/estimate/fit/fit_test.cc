@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "lyrefit/model/kernel.h"
-#include "synthetic/curves.h"
 #include "lyrefit/read/read_curve.h"
 #include "repeats.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

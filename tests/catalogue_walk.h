@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "draw.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/model/reporting_units.h"
 #include "studies/coverage.h"
+#include "synthetic/draw.h"
 
 // Shared parts of the rate tests of the catalogue for single curves and for sets of curves. They
 // draw an effect and suitable noise, fit the effect, and count how often the interval contains its

@@ -50,14 +50,22 @@ class Golden {
   // The whole text of a case that is not laid out for a terminal, such as a line of a brief report.
   void AddLong(const std::string& title, const std::string& text) {
     Begin(title);
-    for (const std::string& line : LinesOf(text)) Append(line);
+    const std::vector<std::string> lines = LinesOf(text);
+    for (const std::string& line : lines) Append(line);
+    if (base_.empty()) base_ = lines;
   }
 
   // Of a text that resembles the first case: lines that are not in it ("+"), and those of it that
   // are missing ("-"), in their orders.
   void AddChanges(const std::string& title, const std::string& text) {
+    NarrowLines(text);
+    AddLongChanges(title, text);
+  }
+
+  // The same of texts that are not laid out for a terminal.
+  void AddLongChanges(const std::string& title, const std::string& text) {
     Begin(title);
-    const std::vector<std::string> lines = NarrowLines(text);
+    const std::vector<std::string> lines = LinesOf(text);
     for (const std::string& line : Without(base_, lines)) Append("- " + line);
     for (const std::string& line : Without(lines, base_)) Append("+ " + line);
   }

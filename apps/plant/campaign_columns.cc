@@ -8,7 +8,6 @@
 
 #include "lyrefit/base/append.h"
 #include "lyrefit/base/enum_text.h"
-#include "lyrefit/batch/cause_columns.h"
 #include "lyrefit/batch/column.h"
 #include "plant/campaign_words.h"
 

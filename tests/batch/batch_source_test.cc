@@ -10,6 +10,8 @@
 #include <string>
 #include <thread>
 
+#include "cases.h"
+#include "read/told.h"
 #include "read_batch.h"
 
 namespace lyrefit {
@@ -19,102 +21,23 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-TEST(JsonRows, HoldACurveEachWithWhatStandsBeside) {
-  const TempFolder folder;
-  const std::string row = GoodRow("a/b/c");
-  const std::string file =
-      folder.Write("s.jsonl", row.substr(0, row.size() - 1) +
-                                  R"(,"date":"2026-05-01","rated_power_W":320,"technology":"mono"})"
-                                  "\n\n" +
-                                  GoodRow("d"));
-  const auto items = ReadBatch({file});
-  ASSERT_EQ(items.size(), 2U);
-  ExpectGood(items[0].curve, "a/b/c");
-  ExpectGood(items[1].curve, "d");
-  EXPECT_EQ(items[0].curve.curve->notes.technology, "mono");
-  EXPECT_EQ(items[0].curve.beside.at("date"), "2026-05-01");
-  EXPECT_EQ(items[0].curve.beside.at("rated_power_W"), "320");
-  EXPECT_EQ(items[0].curve.beside.size(), 2U);
-  EXPECT_EQ(items[1].item.where, file + ":3");
-  EXPECT_EQ(items[0].curve.curve->source, file);
-}
-
-TEST(JsonRows, TakeOtherNamesUnitsAndNesting) {
-  const TempFolder folder;
-  const std::string file = folder.Write(
-      "s.jsonl",
-      R"x({"site":"p","string":7,"inverter":"i1","G":912,"T (K)":320.15,"cells":60,"V (mV)":[0,10000,20000,30000,36000],"I":["8.5","8.49","8.4",6,0.1]})x"
-      "\n"
-      R"({"name":"x","poa":912,"t_cell":47,"ns":60,"iv":{"voltage_V":[0,10,20,30,36],"current_A":[8.5,8.49,8.4,6,0.1]}})"
-      "\n"
-      R"({"voltage_V":[0,10,20,30,36],"current_A":[-8.5,-8.49,-8.4,-6,-0.1]})"
-      "\n");
-  const auto items = ReadBatch({file});
-  ASSERT_EQ(items.size(), 3U);
-  ExpectGood(items[0].curve, "p/i1/7");
-  EXPECT_FALSE(items[0].curve.curve->current_unit_known);
-  EXPECT_TRUE(items[0].curve.curve->voltage_unit_known);
-  ASSERT_TRUE(items[1].curve.curve) << MessageOf(items[1].curve.curve);
-  EXPECT_EQ(items[1].curve.id, "x");
-  EXPECT_EQ(items[1].curve.curve->current_A, kCurrent);
-  EXPECT_EQ(items[2].curve.id, "s:3");
-  ASSERT_TRUE(items[2].curve.curve);
-  EXPECT_EQ(items[2].curve.curve->current_A, kCurrent);  // load sign convention corrected
-  EXPECT_FALSE(items[2].curve.curve->irradiance_known);
-}
-
-TEST(CsvRows, HoldListsInManyWays) {
-  const TempFolder folder;
-  const std::string conditions = "912,47,60";
-  const std::string file =
-      folder.Write("rows.csv",
-                   "\xef\xbb\xbfid,irradiance_W_m2,cell_temperature_C,cells_in_series,voltage_V,"
-                   "current_A,note\r\n"
-                   "a," +
-                       conditions +
-                       ",0 10 20 30 36,8.5 8.49 8.4 6 0.1,x\r\n"
-                       "b," +
-                       conditions +
-                       ",0;10;20;30;36,8.5;8.49;8.4;6;0.1,\r\n"
-                       "c," +
-                       conditions +
-                       ",0|10|20|30|36|,8.5|8.49|8.4|6|0.1|,\r\n"
-                       "d," +
-                       conditions +
-                       ",\"[0, 10, 20, 30, 36]\",\"[8.5, 8.49, 8.4, 6, 0.1]\",\"a \"\"b\"\"\"\r\n"
-                       "e," +
-                       conditions +
-                       ",\"8.5\",\r\n"
-                       "f," +
-                       conditions + ",[0. 10. 20. 30. 36.],[8.5 8.49 8.4 6. 0.1],y");
-  const auto items = ReadBatch({file});
-  ASSERT_EQ(items.size(), 6U);
-  for (const int i : {0, 1, 2, 3, 5}) ExpectGood(items[i].curve, std::string(1, "abcdef"[i]));
-  EXPECT_EQ(items[3].curve.beside.at("note"), "a \"b\"");
-  EXPECT_THAT(items[4].curve.curve.error().ToString(),
-              HasSubstr("rows.csv:6:1: expected 7 fields as in the header, found 6"));
-}
-
-TEST(CsvRows, HoldPairsInOneColumnAsSunsVocDoes) {
-  const TempFolder folder;
-  const std::string file =
-      folder.Write("wbw.csv",
-                   "tmst,ivdf,modt,poa\n"
-                   "2016-05-01 10:00:00,V*I#0*8.5#10*8.49#20*8.4#30*6#36*0.1#,47,912\n"
-                   "2016-05-01 10:05:00,I*V#8.5*0#8.49*10#8.4*20#6*30#0.1*36#,47,912\n"
-                   "2016-05-01 10:10:00,NA,47,912\n");
-  const auto items = ReadBatch({file});
-  ASSERT_EQ(items.size(), 3U);
-  for (const int i : {0, 1}) {
-    ASSERT_TRUE(items[i].curve.curve) << MessageOf(items[i].curve.curve);
-    EXPECT_EQ(items[i].curve.curve->voltage_V, kVoltage);
-    EXPECT_EQ(items[i].curve.curve->current_A, kCurrent);
-    EXPECT_EQ(items[i].curve.curve->conditions.irradiance_W_m2, 912);
-    EXPECT_EQ(items[i].curve.curve->conditions.cell_temperature_K, 320.15);
-  }
-  EXPECT_EQ(items[0].curve.id, "wbw:2");
-  EXPECT_EQ(items[0].curve.beside.at("tmst"), "2016-05-01 10:00:00");
-  EXPECT_THAT(MessageOf(items[2].curve.curve), HasSubstr("found neither among"));
+TEST(BatchSource, ReadsRowsListsAndTrees) {
+  CheckCases("batch_sources",
+             {{"rows", [](const std::string& given) {
+                 return OfFiles(given, [](const std::string& path, const ReadOptions&) {
+                   std::string told;
+                   for (const ReadItem& one : ReadBatch({path})) {
+                     told +=
+                         (told.empty() ? "" : "\n") + one.item.where + " '" + one.curve.id + "': ";
+                     told += ToldOrError(one.curve.curve);
+                     for (const auto& [name, text] : one.curve.beside)
+                       told += "; beside " + name + "=" + text;
+                   }
+                   const auto source = OpenBatch({path});
+                   for (const std::string& remark : (*source)->Remarks()) told += "\n" + remark;
+                   return told;
+                 });
+               }}});
 }
 
 std::string LongRows(const std::string& ids) {
@@ -127,64 +50,6 @@ std::string LongRows(const std::string& ids) {
 }
 
 constexpr char kLongHead[] = "site;inverter;string;irradiance;temperature_C;cells;V;I;date\n";
-
-TEST(LongTable, HoldsCurvesWhoseRowsStandTogether) {
-  const TempFolder folder;
-  const std::string file =
-      folder.Write("long.csv", "# exported\n" + (kLongHead + LongRows("p;1;1")) +
-                                   LongRows("p;1;2") + "\n" + LongRows("p;2;1"));
-  const auto items = ReadBatch({file});
-  ASSERT_EQ(items.size(), 3U);
-  ExpectGood(items[0].curve, "p/1/1");
-  ExpectGood(items[1].curve, "p/1/2");
-  ExpectGood(items[2].curve, "p/2/1");
-  EXPECT_EQ(items[1].item.where, file + ":8");
-  EXPECT_EQ(items[2].curve.beside.at("date"), "2026-05-01");
-}
-
-TEST(LongTable, RefusesWhatComesAgainAndSaysTheLineOfABadReading) {
-  const TempFolder folder;
-  const std::string file =
-      folder.Write("long.csv", kLongHead + LongRows("p;1;1") +
-                                   "p;1;2;912;47;60;0;8.5;\n\np;1;2;912;47;60;x;8.4;\n" +
-                                   LongRows("p;1;1") + "p;1;3;912;47;60;0;8.5;\n");
-  EXPECT_THAT(
-      LinesOf(ReadBatch({file})),
-      ElementsAre("p/1/1: ok",
-                  "p/1/2: " + file + ":9:17: expected a finite number in \"V\"[1], found 'x'",
-                  HasSubstr(":10: the id 'p/1/1' was used before, in " + file + ":2"),
-                  HasSubstr(":15: expected at least two points, found 1")));
-}
-
-TEST(JsonList, GivesTheEntriesOfIvcurvesWithTheBrokenOnes) {
-  const TempFolder folder;
-  const std::string entry =
-      R"(,"Temperature":320.15,"Irradiance":912,"Voltages":["0","10","20","30","36"],"Currents":[8.5,8.49,8.4,6,0.1]})";
-  const std::string file = folder.Write(
-      "case.json", "{\"Manufacturer\":\"x\",\n \"IV Curves\": [\n{\"Index\":1" + entry +
-                       ",\n {\"Index\":2,\"Voltages\":[1],\n\"Currents\":[]}, 7,\n{\"Index\":4" +
-                       entry + "], \"cells_in_series\": 60}");
-  const auto items = ReadBatch({file});
-  ASSERT_EQ(items.size(), 4U);
-  const std::string stem = items[0].curve.id.substr(0, items[0].curve.id.size() - 2);
-  ExpectGood(items[0].curve, stem + "_1");
-  EXPECT_EQ(stem.substr(stem.size() - 5), "/case");
-  EXPECT_THAT(items[1].curve.curve.error().ToString(),
-              HasSubstr(":4: expected as many Currents as Voltages in \"IV Curves\"[1]"));
-  EXPECT_THAT(MessageOf(items[2].curve.curve), HasSubstr("expected a curve that begins with '{'"));
-  ExpectGood(items[3].curve, stem + "_4");
-}
-
-TEST(JsonList, GivesObjectsOfAListAndSaysWhereItIsCut) {
-  const TempFolder folder;
-  const std::string whole = "[" + GoodRow("a") + ",\n" + GoodRow("b") + "]";
-  EXPECT_THAT(LinesOf(ReadBatch({folder.Write("l.json", whole)})), ElementsAre("a: ok", "b: ok"));
-  const std::string around = R"({"irradiance_W_m2":912,"strings":[)" + GoodRow("a") + "]}";
-  EXPECT_THAT(LinesOf(ReadBatch({folder.Write("m.json", around)})), ElementsAre("a: ok"));
-  EXPECT_THAT(
-      LinesOf(ReadBatch({folder.Write("n.json", whole.substr(0, whole.size() - 9))})),
-      ElementsAre("a: ok", HasSubstr("it is cut off"), HasSubstr("the list of curves is cut off")));
-}
 
 TEST(WholeFile, GivesAllCurvesOfADocumentOrTableOfAnyShape) {
   const std::string data = std::string(LYREFIT_DATA_DIR) + "/formats/";
@@ -209,44 +74,6 @@ void WriteTree(const TempFolder& folder) {
   folder.Write("t/inv2/index.csv", "a,b\n");
   folder.Write("t/inv2/photo.jpg", "x");
   folder.Write("t/inv2/empty.csv", "");
-}
-
-TEST(Tree, PathsAreTheIdsInNaturalOrder) {
-  const TempFolder folder;
-  WriteTree(folder);
-  const auto items = ReadBatch({folder.Path("t")});
-  EXPECT_THAT(IdsOf(items), ElementsAre("inv2/broken", "inv2/empty", "inv2/str9", "inv2/str10",
-                                        "inv2/str11", "inv10/str1"));
-  ASSERT_TRUE(items[2].curve.curve);
-  EXPECT_EQ(items[2].curve.curve->conditions.cells_in_series, 60);
-  EXPECT_EQ(items[2].curve.curve->voltage_V, kVoltage);
-  EXPECT_THAT(MessageOf(items[0].curve.curve), HasSubstr("expected a header"));
-  EXPECT_THAT(MessageOf(items[1].curve.curve), HasSubstr("the file is empty"));
-  const auto source = OpenBatch({folder.Path("t")});
-  EXPECT_THAT((*source)->Remarks(),
-              ElementsAre(HasSubstr("1 file of other kinds left aside (1 .jpg)")));
-}
-
-TEST(Tree, FilesOfSeveralCurvesAddTheirIds) {
-  const TempFolder folder;
-  WriteTree(folder);
-  folder.Write("t/inv2/pixels.csv", "V,I1 (A),I2 (A),I3 (A)\n0,9,,8\n0.4,8,,7\n0.6,0,,x\n");
-  folder.Write("t/inv3/rows.json", GoodRow("a") + "\n" + GoodRow("b"));
-  folder.Write("t/inv3/list.json", "[" + GoodRow("c") + ",\n" + GoodRow("d") + "]");
-  folder.Write("t/inv3/one.json", GoodRow("its name"));
-  folder.Write("t/inv3/long.csv", kLongHead + LongRows("p;s1;1") + LongRows("p;s2;1"));
-  const auto items = ReadBatch({folder.Path("t")});
-  EXPECT_THAT(IdsOf(items),
-              ElementsAre("inv2/broken", "inv2/empty", "inv2/pixels/I1 (A)", "inv2/pixels/I2 (A)",
-                          "inv2/pixels/I3 (A)", "inv2/str9", "inv2/str10", "inv2/str11",
-                          "inv3/list/c", "inv3/list/d", "inv3/long/p/s1/1", "inv3/long/p/s2/1",
-                          "inv3/one", "inv3/rows/a", "inv3/rows/b", "inv10/str1"));
-  ASSERT_TRUE(items[2].curve.curve);
-  EXPECT_THAT(items[2].curve.curve->current_A, ElementsAre(9, 8, 0));
-  EXPECT_THAT(MessageOf(items[3].curve.curve), HasSubstr("column I2 (A), found an empty field"));
-  EXPECT_THAT(MessageOf(items[4].curve.curve), HasSubstr("column I3 (A), found 'x'"));
-  EXPECT_TRUE(items[9].curve.curve);
-  EXPECT_EQ(items[9].item.number, 9);
 }
 
 TEST(Tree, SaysLoopsDeadLinksAndClosedFolders) {

@@ -11,6 +11,7 @@
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
 #include "repeats.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {
@@ -193,14 +194,7 @@ TEST(CertifySound, ProvesEveryRangeOfTheSeriesResistance) {
     RandomStream random(seed, 78);
     const MixtureData all = DataOf(curve);
     const double last = (0.7 + 0.25 * random.Uniform()) * all.voltage_V.maxCoeff();
-    IvCurve part = curve;
-    part.voltage_V.clear();
-    part.current_A.clear();
-    for (std::size_t k = 0; k < curve.size(); ++k) {
-      if (curve.voltage_V[k] > last) continue;
-      part.voltage_V.push_back(curve.voltage_V[k]);
-      part.current_A.push_back(curve.current_A[k]);
-    }
+    const IvCurve part = UpTo(last, curve);
     const MixtureData data = DataOf(part);
     CertifyOptions options;
     options.models = {Model::kSingleDiode, Model::kDoubleDiode};

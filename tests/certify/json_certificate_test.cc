@@ -4,9 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
-#include "json_keys.h"
 #include "sample_certificate.h"
 
 #include "lyrefit/certify/certificate_documents.h"
@@ -15,41 +13,6 @@ namespace lyrefit {
 namespace {
 
 using nlohmann::json;
-using Set = std::set<std::string>;
-
-TEST(CertificateJson, HoldsExactlyTheKeysOfTheContract) {
-  const json j = json::parse(CertificateJson(RtcCertificate()));
-  EXPECT_EQ(Keys(j), (Set{"lyrefit_version",
-                          "curve",
-                          "objective",
-                          "constants",
-                          "rigorous",
-                          "n_lower",
-                          "n_upper",
-                          "rs_lower_ohm",
-                          "rs_upper_ohm",
-                          "bounds",
-                          "ranges",
-                          "reference_voltage_V",
-                          "module_thermal_voltage_V",
-                          "floor",
-                          "models",
-                          "options",
-                          "interrupted",
-                          "warnings",
-                          "seconds",
-                          "data"}));
-  EXPECT_EQ(Keys(j["floor"]),
-            (Set{"rmse_A", "lower_bound_A", "gap", "certified", "photocurrent", "resistance_series",
-                 "conductance_shunt", "diodes", "duality_gap", "largest_correlation", "dual_A",
-                 "junction_voltage_V", "problems_solved"}));
-  EXPECT_EQ(Keys(j["models"][0]), (Set{"model", "rmse_A", "lower_bound_A", "gap", "above_floor",
-                                       "certified", "problems_solved", "parameters"}));
-  EXPECT_EQ(Keys(j["models"][0]["parameters"]["n"]), (Set{"symbol", "name", "unit", "value"}));
-  EXPECT_EQ(Keys(j["models"][1]["parameters"]),
-            (Set{"photocurrent", "saturation_current", "n", "resistance_series", "resistance_shunt",
-                 "saturation_current_2", "n_2"}));
-}
 
 // The check that the header describes, done with the JSON alone: the dual vector is feasible and
 // proves the floor.
@@ -83,18 +46,6 @@ TEST(CertificateJson, ProvesTheFloorToAnyoneWhoCanMultiply) {
   EXPECT_GT(highest, -1e-9) << "touches zero at the diodes of the floor";
   const double rmse = j["floor"]["rmse_A"];
   EXPECT_NEAR(bound / (0.5 * static_cast<double>(y.size()) * rmse * rmse), 1, 1e-12);
-}
-
-TEST(CertificateJson, TakesNamesThatAreNotUtf8) {
-  Certificate certificate = RtcCertificate();
-  certificate.curve.name = "caf\xe9";
-  EXPECT_TRUE(json::accept(CertificateJson(certificate)));
-}
-
-TEST(CertificateJson, WritesNullForWhatIsNotFinite) {
-  Certificate certificate = RtcCertificate();
-  certificate.floor.duality_gap = std::nan("");
-  EXPECT_TRUE(json::parse(CertificateJson(certificate))["floor"]["duality_gap"].is_null());
 }
 
 }  // namespace

@@ -71,15 +71,5 @@ TEST(AuditVerb, PrintsNothingThatIsNoUtf8) {
   EXPECT_THAT(refused.err, HasSubstr("no\xef\xbf\xbd"));
 }
 
-TEST(AuditVerb, RefusesATableWithoutAColumnItNeeds) {
-  const TempFolder folder;
-  const std::string rows = folder.Write("rows.csv", "source,device,model,algorithm,Iph_A\n");
-  const AppResult result = RunApp("audit '" + rows + "'");
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(result.out, "");
-  EXPECT_THAT(result.err, HasSubstr("rows.csv:1"));
-  EXPECT_THAT(result.err, HasSubstr("rmse_A"));
-}
-
 }  // namespace
 }  // namespace lyrefit

@@ -251,32 +251,6 @@ TEST_F(BatchCommand, CountsThePixelsOfASubstrate) {
   EXPECT_THAT(RunApp(cells + "--force --noise field").err, HasSubstr("--noise is not for"));
 }
 
-TEST_F(BatchCommand, RefusesWhatCannotBeMeant) {
-  const std::string plan = folder_.Write("plan.csv", "id,modules_in_series\nsite,many\n");
-  const std::string command = " '" + file_ + "' --out '" + folder_.Path("never") + "'";
-  ExpectRefusals("batch",
-                 {
-                     {command + " --task sort", "expected one of fit, diagnose"},
-                     {command + " --pages some", "expected one of none, failed, all"},
-                     {command + " --shard 4/3", "expected K/N with K from 1 to N"},
-                     {command + " --probability 0.9", "--probability is for --task diagnose"},
-                     {command + " --task diagnose --model dd", "--model is for --task fit"},
-                     {command + " --least-jsc 1", "--least-jsc is for --task cell"},
-                     {command + " --task cell --plan neighbours", "--plan is not for --task cell"},
-                     {command + " --plan '" + folder_.Path("no.csv") + "'", "does not exist"},
-                     {command + " --plan '" + plan + "'", "plan.csv:2:6: expected a whole number"},
-                     {command + " --resume --force", "only one of --resume and --force"},
-                     {" '" + file_ + "'", "--out is required"},
-                     {" '" + folder_.Path("") + "' --out '" + folder_.Path("in") + "'",
-                      "--out lies inside of"},
-                     {" '" + folder_.Path("no") + "' --out '" + folder_.Path("o") + "'", "no"},
-                 });
-  ExpectRefusals("merge", {{" '" + folder_.Path("no") + "' --out '" + folder_.Path("o") + "'",
-                            "cannot read the folder"},
-                           {" '" + folder_.Path("") + "'", "--out is required"}});
-  EXPECT_FALSE(std::filesystem::exists(folder_.Path("never")));
-}
-
 // The rows of some combiners of the made plant.
 std::string RowsOfCombiners(const std::vector<std::string>& combiners) {
   std::istringstream all(FileText(std::string(LYREFIT_DATA_DIR) + "/plant/strings.csv"));

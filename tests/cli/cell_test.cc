@@ -82,12 +82,5 @@ TEST(CellCommand, DescribesTheCellThatIsNamedLitAndDark) {
   EXPECT_THAT(RunApp("cell '" + table + "' --column c").err, HasSubstr("'c' was asked for"));
 }
 
-TEST(CellCommand, RefusesWhatIsNotOneCell) {
-  ExpectRefusals("cell ", {{"", "FILE is required"},
-                           {"'" + DataFolder("formats/pixels_names_units.txt") + "'",
-                            "take each with lyrefit batch --task cell"},
-                           {"nowhere.csv", "nowhere.csv"}});
-}
-
 }  // namespace
 }  // namespace lyrefit

@@ -70,21 +70,6 @@ TEST(CertifyVerb, EndsWith2WhereSomethingIsNotCertified) {
   EXPECT_THAT(result.out, HasSubstr("NO"));
 }
 
-TEST(CertifyVerb, RefusesBadInputWithOneSentence) {
-  ExpectRefusals("certify ",
-                 {
-                     {"no_such_file", "no_such_file"},
-                     {kRtc + " --n-lower 3", "n-lower = 3 must be below n-upper = 2"},
-                     {kRtc + " --rs-lower 5", "rs-lower = 5"},
-                     {kRtc + " --is-lower 1e-6 --is-upper 1e-7", "is-lower = 1e-06 is above"},
-                     {kRtc + " --bounds literature --n-upper 3", "leave out those of n"},
-                     {kRtc + " --bounds no_such", "no file 'no_such'"},
-                     {kRtc + " --models qd", "--models: expected a list of sd, dd, td, found 'qd'"},
-                     {kRtc + " --plot x.gif", ".svg, .png or .pdf"},
-                     {kRtc + " --tolerance 0", "--tolerance"},
-                 });
-}
-
 TEST(FitVerb, PrintsTheFloorWhenAsked) {
   const AppResult result = RunApp("fit " + kRtc + " --floor --intervals none");
   EXPECT_EQ(result.exit_code, 0);

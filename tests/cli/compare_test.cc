@@ -55,6 +55,9 @@ TEST(CompareVerb, PrintsTheComparisonByDefault) {
   EXPECT_THAT(result.out, HasSubstr("6 algorithms, 3 runs each, on 3 problems"));
   EXPECT_THAT(result.out, HasSubstr("rtc_france, triple-diode model, bounds physical"));
   EXPECT_THAT(result.out, HasSubstr("After the polish all 6 algorithms tie: 18 of 18 runs"));
+  const std::string help = RunApp("compare --help").out;
+  EXPECT_THAT(help, HasSubstr("(default 1000)"));
+  EXPECT_THAT(help, Not(HasSubstr("--patience")));
 }
 
 TEST(CompareVerb, TakesTheCurvesOfASetThatAreNearestToConditions) {
@@ -70,33 +73,6 @@ TEST(CompareVerb, TakesTheCurvesOfASetThatAreNearestToConditions) {
   EXPECT_LT(second, third) << result.out;
   EXPECT_NE(third, std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("s75_constructed/2 "), std::string::npos);
-}
-
-TEST(CompareVerb, RefusesASetWithoutAChoiceAndAChoiceThatFails) {
-  const std::string set = "compare " + DataFolder("s75_constructed") + kSmall + "--models sd ";
-  EXPECT_THAT(RunApp(set).err, HasSubstr("choose some with --at 1000x25,200x25 or --curves"));
-  EXPECT_THAT(RunApp(set + "--curves 70").err,
-              HasSubstr("there is no curve '70': the 7 curves are"));
-  EXPECT_THAT(RunApp(set + "--at 1000").err,
-              HasSubstr("expected irradiance and temperature such as 1000x25, found '1000'"));
-  EXPECT_THAT(RunApp(set + "--at 1000x25,990x25").err,
-              HasSubstr("--at 990x25: that is s75_constructed/1 (1000 W/m2, 25 C) once more"));
-  EXPECT_EQ(RunApp(set + "--at 1000x25,").exit_code, 1);
-}
-
-TEST(CompareVerb, OffersEveryFlagOfTheContract) {
-  const std::string help = RunApp("compare --help").out;
-  for (const char* flag : {"--models",      "--objective",  "--bounds",
-                           "--bound",       "--runs",       "--seed",
-                           "--population",  "--threads",    "--iterations",
-                           "--algorithms",  "--target-gap", "--no-polish",
-                           "--json",        "--csv",        "--plot",
-                           "--at",          "--curves",     "--plain-polish",
-                           "--memory-rate", "--de-scale",   "--convergence-plot"}) {
-    EXPECT_THAT(help, HasSubstr(std::string("  ") + flag + " ")) << flag;
-  }
-  EXPECT_THAT(help, HasSubstr("(default 1000)"));
-  EXPECT_THAT(help, Not(HasSubstr("--patience")));
 }
 
 TEST(CompareVerb, GivesTheSameJsonOnAnyNumberOfThreads) {
@@ -188,39 +164,6 @@ TEST(CompareVerb, EndsCleanlyBeforeItsFirstRunIsDone) {
   ASSERT_TRUE(j.is_object());
   EXPECT_EQ(j["interrupted"], true);
   EXPECT_TRUE(j["problems"].empty());
-}
-
-TEST(CompareVerb, RefusesBadFlagsWithOneSentence) {
-  const TempFolder folder;
-  const std::vector<std::pair<std::string, std::string>> cases = {
-      {"--algorithms mlo,ant", "found 'ant'"},
-      {"--algorithms mlo,mlo", "the algorithm mlo is named twice"},
-      {"--algorithms mlo,,de", "expected a list such as"},
-      {"--algorithms ''", "--algorithms"},
-      {"--models ''", "--models"},
-      {"--models sd,qd", "expected a list of sd, dd, td, found 'qd'"},
-      {"--models sd,sd", "the model sd is named twice"},
-      {"--runs 0", "runs = 0 is outside"},
-      {"--runs many", "--runs"},
-      {"--population 2", "population = 2 is outside [4, 20000]"},
-      {"--target-gap 0", "target-gap"},
-      {"--bounds nowhere.json", "there is no file 'nowhere.json'"},
-      {"--bound Rs", "--bound"},
-      {"--temperature-C 300", "looks like kelvin"},
-      {"--plot " + folder.Path("box.gif"), ".svg, .png or .pdf"},
-      {"--json - --csv -", "only one of --json and --csv can have standard output"},
-      {"--json " + folder.Path("no/c.json"), "cannot write the file"},
-      {"no_such_curve.csv", "no_such_curve.csv"},
-  };
-  for (const auto& [flags, says] : cases) {
-    const AppResult result = RunApp("compare " + kRtc + " " + flags);
-    EXPECT_EQ(result.exit_code, 1) << flags;
-    EXPECT_EQ(result.out, "") << flags;
-    EXPECT_THAT(result.err, HasSubstr(says)) << flags;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << flags;
-  }
-  EXPECT_EQ(RunApp("compare").exit_code, 1);
-  EXPECT_TRUE(std::filesystem::is_empty(folder.Path("")));
 }
 
 }  // namespace

@@ -24,25 +24,6 @@ const std::string kVerb = "diagnose '" + DataFolder("rtc_france") + "' ";
 // Options of a short run, for tests in which the result does not matter.
 const std::string kQuick = "--effects nonohmic_shunt --no-held-out ";
 
-TEST(DiagnoseVerb, RefusesBadInputWithOneSentence) {
-  ExpectRefusals("", {
-                         {"diagnose", "CURVE is required"},
-                         {"diagnose no_such_file.csv", "no_such_file.csv: the file does not exist"},
-                         {kVerb + "--probability 7", "--probability: 7 is outside ["},
-                         {kVerb + "--base td", "--base: expected sd or dd, found 'td'"},
-                         {kVerb + "--effects nonsense", "--effects: expected one of "},
-                         {kVerb + "--effects ,", "--effects: expected a list such as a,b,c"},
-                         {kVerb + "--cells 0", "--cells: expected at least 1 cell"},
-                         {kVerb + "--json - --answers -", "only one of --json and --answers"},
-                         {kVerb + "--json no_such_folder/x.json", "cannot write"},
-                         {kVerb + "--plot x.gif", ".svg, .png or .pdf"},
-                         {kVerb + "other.csv --plot x.svg", "--plot is for one CURVE"},
-                         {kVerb + "elsewhere/rtc_france.csv --answers x.json",
-                          "two files are named 'rtc_france'"},
-                         {"diagnose --explain nonsense", "--explain: expected one of "},
-                     });
-}
-
 // A string of 20 modules of 60 cells with four of its 60 substrings in shade, and its module's sheet.
 class DiagnosedString : public testing::Test {
  protected:
@@ -77,12 +58,6 @@ TEST_F(DiagnosedString, HasTheDiodesOfTheFlagOrOfTheSheet) {
     EXPECT_THAT(Found(flag + ("'" + sheet + "'")),
                 HasSubstr("60 bypass diodes: 20 modules of 3 bypass diodes, m.json"));
   }
-}
-
-TEST(DiagnoseVerb, ListsTheEffectsWhereOneIsUnknown) {
-  const AppResult result = RunApp(kVerb + "--effects nonsense");
-  EXPECT_THAT(result.err, HasSubstr("nonohmic_shunt, "));
-  EXPECT_THAT(result.err, HasSubstr("found 'nonsense'"));
 }
 
 TEST(DiagnoseVerb, ExplainsAnEffect) {
@@ -169,10 +144,6 @@ TEST(DiagnoseVerb, ExplainsEveryEffectOfTheList) {
 TEST(DiagnoseVerb, WritesWholeDiagnosesAsJson) {
   const json j = json::parse(RunApp(kVerb + "--folds 4 --json -").out, nullptr, false);
   ASSERT_TRUE(j.is_object());
-  for (const char* key : {"evidence", "trials", "verdict", "gain", "points", "curves", "seed",
-                          "probability", "warnings"}) {
-    EXPECT_TRUE(j.contains(key)) << key;
-  }
   EXPECT_EQ(j["points"]["voltage_V"].size(), 26U);
   EXPECT_GT(j["trials"].size(), 20U);
   EXPECT_TRUE(j["verdict"]["causes"].is_array());

@@ -24,76 +24,6 @@ void ExpectRefused(const std::string& arguments, const std::string& complaint) {
   EXPECT_THAT(result.err, HasSubstr(complaint)) << arguments;
 }
 
-TEST(FamilyFlags, OfASetNeedFamily) {
-  const TempFolder folder;
-  for (const std::string& flag :
-       {std::string("--shunt inverse"), std::string("--recombination"),
-        std::string("--weights isc"), std::string("--search-curves 4"),
-        std::string("--fit-curves 9"), std::string("--irradiance-offset"),
-        std::string("--temperature-offset"), std::string("--irradiance-accuracy 2%"),
-        std::string("--temperature-accuracy 1"), std::string("--free EgRef"),
-        std::string("--leave-out 3"), std::string("--folds 2"), std::string("--no-individual-fits"),
-        std::string("--against x.json"), "--pvlib " + folder.Path("x.json")}) {
-    ExpectRefused(kRtc + " " + flag,
-                  flag.substr(0, flag.find(' ')) + " is about a set of curves: it needs --family");
-  }
-}
-
-TEST(FamilyFlags, OfOneCurveAreRefusedWithFamily) {
-  for (const std::string flag :
-       {"--floor", "--bounds wide", "--loss huber", "--loss-scale 2", "--kernel portable",
-        "--curve 3", "--no-polish", "--temperature-C 30", "--irradiance-Wm2 800"}) {
-    ExpectRefused(kRtc + " --family desoto " + flag,
-                  flag.substr(0, flag.find(' ')) + " is for one curve, not for --family");
-  }
-  ExpectRefused(kRtc + " --family desoto --model auto", "--model auto is for one curve");
-  ExpectRefused(kRtc + " --family pvsyst --intervals profile", "symmetric intervals or none");
-}
-
-TEST(FamilyFlags, AreCheckedAgainstTheLaw) {
-  ExpectRefused(kRtc + " --family de_soto", "expected one of desoto, pvsyst, cec, free, auto");
-  ExpectRefused(kRtc + " --family desoto --recombination", "belongs to the law pvsyst");
-  ExpectRefused(kRtc + " --family desoto --model td", "expected sd or dd");
-  ExpectRefused(kRtc + " --family pvsyst --model dd --pvlib -", "pvlib knows one diode");
-  ExpectRefused(kRtc + " --family desoto --shunt constant --pvlib -",
-                "pvlib's desoto knows the shunt law inverse only, not constant");
-  ExpectRefused(kRtc + " --family desoto --shunt exponential", "exponential");
-  ExpectRefused(kRtc + " --family auto --shunt inverse", "--shunt is what --family auto chooses");
-  ExpectRefused(kRtc + " --family auto --model dd", "--model is what --family auto chooses");
-  ExpectRefused(kRtc + " --family free --weights isc",
-                "--weights is about what curves share: --family free fits every curve on its own");
-}
-
-TEST(FamilyFlags, TakeNumbersInTheirRangesOnly) {
-  for (const char* text : {"'2 %%'", "-1", "60", "abc", "%"}) {
-    ExpectRefused(kRtc + " --family desoto --irradiance-accuracy " + text, "--irradiance-accuracy");
-  }
-  ExpectRefused(kRtc + " --family desoto --temperature-accuracy 99", "--temperature-accuracy");
-  ExpectRefused(kRtc + " --family desoto --folds -1", "--folds");
-  ExpectRefused(kRtc + " --family desoto --search-curves 1", "--search-curves");
-  ExpectRefused(kRtc + " --family desoto --bound Rs=1", "--bound: expected PARAMETER=LOWER:UPPER");
-  ExpectRefused(kRtc + " --family desoto --fix n", "--fix: expected PARAMETER=VALUE");
-}
-
-TEST(FamilyFlags, NameFilesThatCanBeWritten) {
-  const TempFolder folder;
-  ExpectRefused(kRtc + " --family desoto --csv " + folder.Path("no/x.csv"), "cannot write");
-  ExpectRefused(kRtc + " --family desoto --pvlib " + folder.Path("no/x.json"), "cannot write");
-  ExpectRefused(kRtc + " --family desoto --plot " + folder.Path("x.gif"), ".svg, .png or .pdf");
-  ExpectRefused(kRtc + " --family desoto --json - --pvlib -",
-                "only one of --pvlib and --json can have");
-}
-
-TEST(FamilyVerb, SaysThatAFileIsMissing) {
-  ExpectRefused("no_such_set --family desoto", "no_such_set");
-}
-
-// The parameters of a translation law need several curves.
-TEST(FamilyVerb, RefusesASingleCurve) {
-  ExpectRefused(kRtc + " --family desoto", "one curve cannot tell");
-  ExpectRefused(kRtc + " --family pvsyst", "one curve cannot tell");
-}
-
 // The parameters of a small module.
 struct Truth {
   double photocurrent = 5.0;
@@ -267,8 +197,6 @@ TEST_F(FamilyVerbOnASet, FitsAMatrixOfKeyPoints) {
       RunApp("fit '" + matrix + "' -v --cells 60 --family pvsyst" + kQuickFamily);
   EXPECT_THAT(text.out, HasSubstr("Key points, model less measured (%)"));
   EXPECT_THAT(text.out, HasSubstr("key points (Isc, Voc, Vmp, Pmp); search: solved-current"));
-  ExpectRefused("'" + matrix + "' --family desoto --key-point-errors imp=1%",
-                "key-point-errors: expected isc, voc, vmp or pmp");
 }
 
 TEST_F(FamilyVerbOnASet, FitsEveryCurveOnItsOwn) {

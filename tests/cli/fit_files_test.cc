@@ -145,17 +145,6 @@ TEST_F(FitOfManyFiles, IsWhatEveryFileAloneGives) {
   EXPECT_EQ(among, alone);
 }
 
-TEST_F(FitOfManyFiles, RefusesWhatIsForOne) {
-  for (const char* flag : {"--plot x.svg", "--curve 1"}) {
-    const AppResult result = RunApp("fit " + curves_ + flag);
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_THAT(result.err, HasSubstr("is for one CURVE"));
-  }
-  const AppResult family = RunApp("fit " + curves_ + "--family desoto");
-  EXPECT_EQ(family.exit_code, 1);
-  EXPECT_THAT(family.err, HasSubstr("--family takes one set of curves"));
-}
-
 TEST_F(FitOfManyFiles, OfOneFileIsATableOfOneRow) {
   const AppResult fit = RunApp("fit '" + folder_.Path("c0.csv") + "' --csv -");
   EXPECT_EQ(fit.exit_code, 0) << fit.err;

@@ -9,8 +9,6 @@
 namespace lyrefit {
 namespace {
 
-using ::testing::HasSubstr;
-
 const std::string kShipped = LYREFIT_DATA_DIR;
 
 // The JSON record embedded in a page.
@@ -52,19 +50,6 @@ TEST(Html, OfSeveralFitsIsTheirTable) {
   const std::string html = FileText(page);
   EXPECT_TRUE(html.find("fits of 2 curves") != std::string::npos);
   EXPECT_EQ(RecordOf(html).size(), 2u);
-}
-
-TEST(Html, OfADiagnosisIsForOneCurve) {
-  const std::string sweep = kShipped + "/diagnosis/shaded_module.csv ";
-  const AppResult result = RunApp("diagnose " + sweep + sweep + "--html x.html");
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("--html is for one CURVE"));
-}
-
-TEST(Html, IsNotPutWhereItCannotBe) {
-  const AppResult result = RunApp("fit " + kShipped + "/rtc_france --html /nowhere/page.html");
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("/nowhere/page.html"));
 }
 
 }  // namespace

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "curve/synthetic_curve.h"
 #include "repeats.h"
 #include "run_app.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {
@@ -82,35 +82,12 @@ void ExpectDoubted(const std::string& content, const std::string& flags, const s
   }
 }
 
-TEST(Implausible, NothingMeasured) {
-  const IvCurve module = SyntheticModule();
-  ExpectRefused(Csv(Changed(module, [](double*, double* i) { *i = 0; })), "",
-                {"curve.csv", "all 100 currents are 0"});
-  ExpectRefused(Csv(Changed(module, [](double*, double* i) { *i = 5; })), "",
-                {"all 100 currents are 5 A"});
-  ExpectRefused(Csv(Changed(module, [](double*, double* i) { *i *= 1e-70; })), "",
-                {"less than any instrument"});
-}
-
 TEST(Implausible, OverflowCodes) {
   for (const double code : {9.9e37, 9.91e37, 1e38, 1e300, 1e308}) {
     IvCurve curve = SyntheticModule();
     curve.current_A[5] = code;
     ExpectRefused(Csv(curve), "--cells 60", {"reading 6", "overflow", "--skip-missing"});
   }
-}
-
-TEST(Implausible, VoltageOfTheWrongSign) {
-  ExpectRefused(Csv(Changed(SyntheticModule(), [](double* v, double*) { *v = -*v; })), "--cells 60",
-                {"wrong sign"});
-}
-
-TEST(Implausible, ExchangedColumns) {
-  const IvCurve exchanged =
-      Changed(SyntheticModule(), [](double* v, double* i) { std::swap(*v, *i); });
-  ExpectRefused(Csv(exchanged), "", {"columns are exchanged"});
-  ExpectRefused(Csv(exchanged, ""), "", {"columns are exchanged", "--voltage-column"});
-  ExpectRefused(Csv(exchanged, "voltage_V,current_A\n"), "--cells 60", {"columns are exchanged"});
 }
 
 TEST(Implausible, UnitsNobodyNamed) {

@@ -44,17 +44,5 @@ TEST(Pack, ReadsStandardInputAndWritesStandardOutput) {
   EXPECT_EQ(again.out, result.out);
 }
 
-TEST(Pack, RefusesWithoutTouchingAnything) {
-  const TempFolder folder;
-  const std::string in = folder.Write("in.jsonl", kRow + "\n");
-  ExpectRefusals("pack '" + in + "' --out ",
-                 {{"'" + in + "'", "in.jsonl"},
-                  {"x.txt", "--out: expected FILE.jsonl, FILE.csv or -"},
-                  {"'" + folder.Path("none/x.csv") + "'", "cannot write the file"}});
-  ExpectRefusals("pack ", {{"'" + folder.Path("missing") + "' --out -", "does not exist"},
-                           {"'" + in + "'", "--out"}});
-  EXPECT_EQ(FileText(in), kRow + "\n");
-}
-
 }  // namespace
 }  // namespace lyrefit

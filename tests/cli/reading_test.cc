@@ -31,16 +31,6 @@ TEST(ReadingFlags, ChooseColumnsAndArea) {
   }
 }
 
-TEST(ReadingFlags, RefusalsNameThem) {
-  ExpectRefusals(
-      "fit " + kFormats,
-      {
-          {"wide.csv", "choose one with --column NAME|N (see --list-columns)"},
-          {"density.txt", "give the area of the cell with --area-cm2"},
-          {"other_names.csv", "name the columns with --voltage-column and --current-column"},
-      });
-}
-
 TEST(ReadingFlags, ColumnsAreListed) {
   const AppResult result = RunApp("fit --list-columns " + kFormats + "wide.csv");
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -47,21 +47,5 @@ TEST(DiagnoseModule, FindsTheOutlierSweep) {
   EXPECT_EQ(json::parse(as_json.out)["sweeps"][0]["name"], "13");
 }
 
-TEST(DiagnoseReference, RefusesWithOneSentence) {
-  ExpectRefusals(
-      "diagnose ",
-      {
-          {kNow + " --reference " + kNow, "0 reference sweeps can be used"},
-          {kNow + " --reference no_such_file.csv", "no_such_file.csv: the file does not exist"},
-          {kNow + " --reference " + kSweeps + " --module", "only one of --reference and --module"},
-          {kSweeps + " --reference " + kSweeps, "compares one sweep"},
-          {kNow + " --module", "takes 5 or more"},
-          {kSweeps + " --module --plot x.svg", "--plot and --extend are not for --module"},
-          {kNow + " --reference " + kSweeps + " --answers x.json", "--answers"},
-          {"'" + DataFolder("diagnosis/shaded_module.csv") + "' --reference " + kSweeps,
-           "96 cells"},
-      });
-}
-
 }  // namespace
 }  // namespace lyrefit

@@ -121,43 +121,6 @@ TEST(Simulate, RedrawsAFitWithoutPolish) {
   EXPECT_EQ(RunApp("simulate --from " + fit).exit_code, 0);
 }
 
-void ExpectSimulateRefused(const std::string& arguments, const std::string& says) {
-  const AppResult result = RunApp(arguments);
-  EXPECT_EQ(result.exit_code, 1) << arguments;
-  EXPECT_EQ(result.out, "");
-  EXPECT_EQ(Lines(result.err), 1) << result.err;
-  EXPECT_THAT(result.err, StartsWith("lyrefit: "));
-  EXPECT_THAT(result.err, HasSubstr(says));
-}
-
-TEST(Simulate, RefusesWhatItCannotSimulate) {
-  const TempFolder folder;
-  ExpectSimulateRefused("simulate --set Iph=1", "no value for");
-  ExpectSimulateRefused(kDevice + "--set n2=2", "n2");
-  ExpectSimulateRefused(kDevice + "--set Rsh=0", "Rsh");
-  ExpectSimulateRefused(kDevice + "--set Is1=-1", "Is1");
-  ExpectSimulateRefused(kDevice + "--set Iph=0", "open-circuit");
-  ExpectSimulateRefused(kDevice + "--voltages 0:1", "FROM:TO:COUNT");
-  ExpectSimulateRefused(kDevice + "--points 1", "points");
-  ExpectSimulateRefused(kDevice + "--noise-A -1", "noise");
-  ExpectSimulateRefused(kParameters + "--cells 0", "--cells: expected at least 1");
-  ExpectSimulateRefused(kParameters + "--temperature-C 318", "kelvin");
-  ExpectSimulateRefused(kDevice + "--cells 3", "--cells: given more than once");
-  ExpectSimulateRefused(kDevice + "--out " + folder.Path("no/x.csv"), "no/x.csv");
-  ExpectSimulateRefused(kDevice + "--out " + folder.Path("x.json"), ".json");
-  ExpectSimulateRefused("simulate --from " + folder.Path("no.json"), "does not exist");
-  ExpectSimulateRefused("simulate --from " + folder.Write("list.json", "[1, 2]"), "fit report");
-  ExpectSimulateRefused(
-      "simulate --from " + folder.Write("outlier.json", R"({"model":"sd","constants":"codata",
-      "parameters":{},"curve":[],"rmse":[1]})"),
-      "curve.conditions");
-  ExpectSimulateRefused(
-      "simulate --from " + folder.Write("many.json", R"({"model":"sd","constants":"codata",
-      "parameters":{},"curves":3})"),
-      "a model of 3 curves");
-  EXPECT_FALSE(std::filesystem::exists(folder.Path("x.json")));
-}
-
 TEST(Simulate, TakesAModuleByItsLaw) {
   const TempFolder folder;
   const std::string from = "simulate --from '" + DataFolder("datasheet/invented.PAN") + "' ";
@@ -173,10 +136,6 @@ TEST(Simulate, TakesAModuleByItsLaw) {
   EXPECT_EQ(dimmed.exit_code, 0) << dimmed.err;
   const std::string library = DataFolder("datasheet/invented_cec.csv");
   EXPECT_EQ(RunApp("simulate --from '" + library + "#Invented I-304 M60'").exit_code, 0);
-  ExpectSimulateRefused("simulate --from '" + library + "'", "FILE#NAME");
-  ExpectSimulateRefused(from + "--cells 72", "expected the 60 cells in series of the module");
-  ExpectSimulateRefused(from + "--temperature-C 300", "--temperature-C");
-  ExpectSimulateRefused(from + "--curve 2", "no curve 2");
   const std::string text = FileText(DataFolder("datasheet/invented.PAN"));
   const AppResult warned = RunApp(
       "simulate --from " + folder.Write("m.PAN", std::string(text).replace(

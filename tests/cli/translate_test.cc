@@ -21,53 +21,6 @@ const std::string kAt = "--irradiance-Wm2 1000 ";
 const std::string kQuickTranslation =
     "--draws 200 --effects nonohmic_shunt --alpha 0.05% --beta -0.35% ";
 
-TEST(TranslateVerb, RefusesBadInputWithOneSentence) {
-  ExpectRefusals("",
-                 {{"translate", "CURVE"},
-                  {kTranslateCell + kAt + "--to 1000", "--to: expected irradiance"},
-                  {kTranslateCell + kAt + "--to 1000,abc", "--to: expected irradiance"},
-                  {kTranslateCell + kAt + "--to 9000,25", "1 to 2000 W/m2"},
-                  {kTranslateCell + kAt + "--beta steep", "--beta: expected a number per kelvin"},
-                  {kTranslateCell + kAt + "--procedures iec5", "iec4"},
-                  {kTranslateCell + kAt + "--key-points by-eye", "--key-points"},
-                  {kTranslateCell + kAt + "--lead-resistance -1", "--lead-resistance"},
-                  {kTranslateCell + kAt + "--coefficients no_such.json", "no_such.json"},
-                  {kTranslateCell + kAt + "--with-curve no_such.csv", "no_such.csv"},
-                  {kTranslateCell + "--irradiance-Wm2 0 --temperature-C 25", "dark"}});
-}
-
-// Absurd input is refused with one sentence.
-TEST(TranslateVerb, RefusesHostileInputWithOneSentence) {
-  const TempFolder folder;
-  const auto write = [&](const std::string& name, const std::string& rows) {
-    const std::string path = folder.Path(name);
-    std::ofstream(path) << "voltage_V,current_A\n" << rows;
-    return "translate '" + path + "' --cells 1 --irradiance-Wm2 800 --temperature-C 45 ";
-  };
-  const std::string lit =
-      "0,0.76\n0.1,0.76\n0.2,0.757\n0.3,0.753\n0.35,0.74\n0.4,0.72\n0.45,0.68\n0.5,0.55\n"
-      "0.55,0.2\n0.57,0\n";
-  const std::string good = write("good.csv", lit);
-  ExpectRefusals("", {{write("one.csv", "0,0.76\n"), "at least two points"},
-                      {write("short.csv", "0,0.76\n0.1,0.76\n0.2,0.757\n0.3,0.753\n"),
-                       "before the point of maximum power"},
-                      {write("dark.csv", "0.1,-0.001\n0.3,-0.01\n0.5,-0.2\n0.55,-0.9\n0.6,-3\n"),
-                       "no reading delivers power"},
-                      {write("hole.csv", "0,0.76\n0.1,nan\n0.2,0.757\n"), "finite number"},
-                      {good + "--to 0,25", "1 to 2000 W/m2"},
-                      {good + "--to nan,25", "1 to 2000 W/m2"},
-                      {good + "--to 1000,-300", "-60 to 150 C"},
-                      {good + "--alpha 50", "of no device"},
-                      {good + "--beta 0.3%", "of no device"},
-                      {good + "--beta -30", "of no device"},
-                      {good + "--epsilon 0", "band gap"},
-                      {good + "--rs -1", "negative"},
-                      {good + "--lead-resistance 5", "leads of 5 ohm"},
-                      {good + "--rear-irradiance-Wm2 100", "say --bifaciality"},
-                      {good + "--with-curve '" + folder.Path("good.csv") + "'", "--irradiance-Wm2"},
-                      {kTranslateCell + "--irradiance-Wm2 -5", "--irradiance-Wm2"}});
-}
-
 // Every verb gives the same warning, and translate gives no pass or fail for an impossible power.
 TEST(TranslateVerb, JudgesNoMilliampereReadAsAmpere) {
   SKIP_IF_SANITIZED();

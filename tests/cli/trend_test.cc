@@ -142,31 +142,6 @@ TEST(TrendCommand, HelpNamesItsFlags) {
   }
 }
 
-TEST(TrendCommand, RefusesInOneSentence) {
-  const TempFolder folder;
-  const std::string no_time =
-      folder.Write("a.csv",
-                   "irradiance_Wm2,temperature_C,voltage_V,current_A\n"
-                   "800,40,0 10 20 25 30 32 34 35 36,8 8 8 8 7.5 7 5 3 0\n");
-  const std::string short_series =
-      folder.Write("b.csv",
-                   "date,irradiance_Wm2,temperature_C,cells_in_series,voltage_V,current_A\n"
-                   "2025-03-12 10:00,800,40,60,0 10 20 25 30 32 34 35 36,8 8 8 8 7.5 7 5 3 0\n");
-  const std::string points = folder.Write("c.csv", "time,irradiance,temperature,vmp,x\n");
-  ExpectRefusals("trend ",
-                 {{"", "SWEEPS is required"},
-                  {"'" + folder.Path("none.csv") + "'", "none.csv"},
-                  {"'" + no_time + "'", "a.csv:2"},
-                  {"'" + short_series + "'", "expected usable measurements at 5 times or more"},
-                  {"--operating " + kTrendPoints, "name it (--module)"},
-                  {"--operating '" + points + "' " + kTrendModule, "none for imp"},
-                  {kTrendYear + " --module '" + points + "'", "c.csv"},
-                  {kTrendYear + " --reference-days 1", "--reference-days"},
-                  {kTrendYear + " --false-alarms 0", "--false-alarms"},
-                  {kTrendYear + " --append " + kTrendYear, "expected the state of a trend"},
-                  {kTrendYear + " --json '" + folder.Path("no/x.json") + "'", "cannot write"}});
-}
-
 TEST(TrendCommand, RefusesADamagedState) {
   const TempFolder folder;
   const std::string state = folder.Path("year.state");

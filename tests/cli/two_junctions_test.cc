@@ -40,20 +40,5 @@ TEST(TwoJunctionsCommand, FitsWhatItSimulatesUnderTwoSpectra) {
   EXPECT_NEAR(last(again.out), last(truth.out), 1e-9);
 }
 
-TEST(TwoJunctionsCommand, RefusesFlagsOfOneJunction) {
-  const std::string rtc = std::string("fit ") + LYREFIT_DATA_DIR + "/rtc_france ";
-  const AppResult light = RunApp(rtc + "--light rtc_france=1:1");
-  EXPECT_EQ(light.exit_code, 1);
-  EXPECT_THAT(light.err, HasSubstr("needs --junctions 2"));
-  for (const char* flag : {"--model dd", "--with shading", "--floor"}) {
-    const AppResult refused = RunApp(rtc + "--junctions 2 " + flag);
-    EXPECT_EQ(refused.exit_code, 1) << flag;
-    EXPECT_THAT(refused.err, HasSubstr("is for one junction")) << flag;
-  }
-  const AppResult missing = RunApp("simulate --junctions 2 --set Iph1=0.02");
-  EXPECT_EQ(missing.exit_code, 1);
-  EXPECT_THAT(missing.err, HasSubstr("no value for Is1"));
-}
-
 }  // namespace
 }  // namespace lyrefit

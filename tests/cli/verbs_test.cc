@@ -18,51 +18,6 @@ using ::testing::StartsWith;
 
 const std::string kCurve = "'" + DataFolder("rtc_france") + "' ";
 
-TEST(Verbs, ThatAreNoneNameTheNearest) {
-  const struct {
-    const char* word;
-    const char* says;
-  } cases[] = {
-      {"fti", "no verb 'fti'; did you mean fit?"},
-      {"Fit", "no verb 'Fit'; did you mean fit?"},
-      {"diagnoze x.csv", "no verb 'diagnoze'; did you mean diagnose?"},
-      {"sim --set Iph=1", "no verb 'sim'; did you mean simulate?"},
-      {"-v comprae", "no verb 'comprae'; did you mean compare?"},
-      {"frobnicate", "no verb 'frobnicate': expected fit, simulate, certify, "},
-      {"-v", "expected a verb: fit, simulate, certify, "},
-  };
-  for (const auto& one : cases) {
-    const AppResult result = RunApp(one.word);
-    EXPECT_EQ(result.exit_code, 1) << one.word;
-    EXPECT_EQ(result.out, "") << one.word;
-    EXPECT_THAT(result.err, StartsWith(std::string("lyrefit: ") + one.says)) << one.word;
-  }
-}
-
-TEST(Verbs, NameTheNearestFlagAndTheDecimalPoint) {
-  const TempFolder folder;
-  folder.Write("plant/inv1/comb1/a.csv", "V,I\n0,1\n1,0\n");
-  for (const auto& [line, says] : {
-           std::pair("fit x.csv --cell 60", "no flag '--cell' of fit; did you mean --cells?"),
-           std::pair("fit x.csv --temperature 50",
-                     "no flag '--temperature' of fit; did you mean --temperature-C?"),
-           std::pair("datasheet -isc 9", "no flag '-isc' of datasheet; did you mean --isc?"),
-           std::pair("diagnose x.csv --bypas-diodes=3",
-                     "no flag '--bypas-diodes' of diagnose; did you mean --bypass-diodes?"),
-           std::pair("datasheet --isc 9,12", "(numbers have a decimal point: 9.12)"),
-           std::pair("fit x.csv --temperature-C 47,3", "(numbers have a decimal point: 47.3)"),
-       }) {
-    const AppResult result = RunApp(line);
-    EXPECT_EQ(result.exit_code, 1) << line;
-    EXPECT_THAT(result.err, HasSubstr(says)) << line;
-  }
-  for (const char* verb : {"fit", "diagnose"}) {
-    EXPECT_THAT(RunApp(std::string(verb) + " '" + folder.Path("plant") + "'").err,
-                HasSubstr("folders of folders are for lyrefit batch"));
-  }
-  EXPECT_THAT(RunApp("fit x.csv --frobnicate").err, HasSubstr("not expected: --frobnicate"));
-}
-
 TEST(Verbs, AreFoundByWhatIsAskedOfThem) {
   const AppResult bare = RunApp("");
   EXPECT_EQ(bare.exit_code, 0) << bare.err;
@@ -77,9 +32,6 @@ TEST(Verbs, AreFoundByWhatIsAskedOfThem) {
 
 TEST(Verbs, HelpOfOneIsTheSameTwoWays) {
   EXPECT_EQ(RunApp("help fit").out, RunApp("fit --help").out);
-  const AppResult wrong = RunApp("help fti");
-  EXPECT_EQ(wrong.exit_code, 1);
-  EXPECT_EQ(wrong.err, "lyrefit: no verb 'fti'; did you mean fit?\n");
 }
 
 TEST(Verbs, TermsFitATerminalAndCoverTheTables) {
@@ -91,34 +43,6 @@ TEST(Verbs, TermsFitATerminalAndCoverTheTables) {
   for (const char* term : {"Isc", "Rsh", "n1", "AICc", "probability", "misfit", "kept", "floor",
                            "searched", "refined", "std err", "95 % interval"}) {
     EXPECT_THAT(terms, HasSubstr(term));
-  }
-}
-
-TEST(Verbs, WithoutATargetSayWhatTheyWriteInstead) {
-  const struct {
-    const char* arguments;
-    const char* says;
-  } cases[] = {
-      {"simulate --set Iph=1 --json a.json",
-       "--json: simulate has none; it writes the curve alone, as a table: --out FILE.csv"},
-      {"audit x.csv --plot a.svg",
-       "--plot: audit has none; it writes the findings as text, --json and --csv"},
-      {"compare x.csv --brief",
-       "--brief: compare has none; it writes its tables as text, --json, --csv, --plot, "
-       "--convergence-plot and --html"},
-  };
-  for (const auto& one : cases) {
-    const AppResult result = RunApp(one.arguments);
-    EXPECT_EQ(result.exit_code, 1) << one.arguments;
-    EXPECT_EQ(result.err, std::string("lyrefit: ") + one.says + "\n") << one.arguments;
-  }
-}
-
-TEST(Verbs, EmptyArgumentIsNamed) {
-  for (const char* verb : {"fit", "certify", "diagnose", "compare"}) {
-    const AppResult result = RunApp(std::string(verb) + " ''");
-    EXPECT_EQ(result.exit_code, 1) << verb;
-    EXPECT_EQ(result.err, "lyrefit: CURVE: expected the name of a file, found nothing\n") << verb;
   }
 }
 
@@ -179,28 +103,8 @@ TEST(Verbs, HelpThatCannotBeWrittenIsAnError) {
   }
 }
 
-TEST(Verbs, RefuseNumbersThatCountNothing) {
-  const TempFolder folder;
-  const std::string cases[] = {
-      "fit " + kCurve + "--threads -3",     "diagnose " + kCurve + "--threads -3",
-      "compare " + kCurve + "--threads -3", "compare " + kCurve + "--threads 5000",
-      "certify " + kCurve + "--cells -1",   "compare " + kCurve + "--runs -1",
-      "compare " + kCurve + "--runs 0",     "compare " + kCurve + "--seed -1",
-      "simulate --set Iph=1 --points -5",   "fit " + kCurve + "--loss-scale -1",
-  };
-  for (const std::string& arguments : cases) {
-    const AppResult result = RunApp(arguments);
-    EXPECT_EQ(result.exit_code, 1) << arguments;
-    EXPECT_EQ(result.out, "") << arguments;
-    EXPECT_THAT(result.err, StartsWith("lyrefit: ")) << arguments;
-  }
-}
-
 TEST(Verbs, ThatPrintAReportKnowQuiet) {
   SKIP_IF_SANITIZED();
-  for (const char* verb : {"fit", "certify", "diagnose", "compare", "datasheet", "audit"}) {
-    EXPECT_THAT(RunApp(std::string(verb) + " --help").out, HasSubstr("--quiet")) << verb;
-  }
   const AppResult audit = RunApp("audit '" + DataFolder("paper") + "/rows.csv' --quiet");
   EXPECT_EQ(audit.exit_code, 0) << audit.err;
   EXPECT_EQ(audit.out, "");

@@ -88,24 +88,6 @@ TEST(With, ASimulationNeedsNoReport) {
   EXPECT_NEAR(less[6], 0.6 * full.front(), 0.15);  // 30 V: the shaded third limits
 }
 
-TEST(With, SaysWhatIsWrongWithAnEffect) {
-  ExpectRefusals(
-      kModule + "--with ",
-      {
-          {"nonsense",
-           "--with: there is no effect 'nonsense'; lyrefit diagnose --explain lists them"},
-          {"shading:q=1", "shading: has no parameter 'q', expected d, w, Vb"},
-          {"shading:d=2", "shading: d = 2 is outside 0 to 0.999"},
-          {"shading:d=a", "expected PARAMETER=VALUE"},
-          {"shading:w=0.3", "shading: a simulation needs its strength, d"},
-          {"shading:d=0.1:0.2", "shading: a simulation needs one value of d, found 0.1:0.2"},
-          {"capacitance:C0=1e-6", "capacitance: needs a sweep up and a sweep down (--force"},
-      });
-  const AppResult automatic = RunApp("fit " + kShaded + " --model auto --with shading");
-  EXPECT_EQ(automatic.exit_code, 1);
-  EXPECT_THAT(automatic.err, HasSubstr("--model auto chooses among diodes alone"));
-}
-
 TEST(With, SearchesAreComparedOnIt) {
   SKIP_IF_SANITIZED();
   const AppResult compare =

@@ -1,79 +1,36 @@
 #include "lyrefit/curve/date_time.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <string>
+
+#include "cases.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/technology.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr double k12March_s = 20159 * kDay_s;  // 2025-03-12
-constexpr double k25March_s = 20172 * kDay_s;
 constexpr double kHalfPastTen_s = 10.5 * 3600;
 
-TEST(ReadDateTime, ReadsAllForms) {
-  const std::pair<const char*, double> texts[] = {
-      {"1970-01-01", 0},
-      {"2025-03-12", k12March_s},
-      {"\"2025-03-12\"", k12March_s},
-      {" 2025-03-12 10:30 ", k12March_s + kHalfPastTen_s},
-      {"2025-03-12T10:30:05", k12March_s + kHalfPastTen_s + 5},
-      {"2025-03-12T10:30:05.5", k12March_s + kHalfPastTen_s + 5.5},
-      {"2025-03-12 10:30:05,25", k12March_s + kHalfPastTen_s + 5.25},
-      {"2025/3/12 10:30", k12March_s + kHalfPastTen_s},
-      {"2025.03.12", k12March_s},
-      {"12.03.2025 10:30", k12March_s + kHalfPastTen_s},
-      {"12.3.25", k12March_s},
-      {"03/25/2025", k25March_s},
-      {"25/03/2025 10:30", k25March_s + kHalfPastTen_s},
-      {"3/25/2025 10:30 PM", k25March_s + 22.5 * 3600},
-      {"3/25/2025 12:30 am", k25March_s + 0.5 * 3600},
-      {"3/25/2025 12:30 PM", k25March_s + 12.5 * 3600},
-  };
-  for (const auto& [text, seconds] : texts) {
-    const auto time = ReadDateTime(text);
-    ASSERT_TRUE(time) << text;
-    EXPECT_DOUBLE_EQ(*time, seconds) << text;
-  }
-}
-
-TEST(ReadDateTime, KeepsTheClockOfTheLogger) {
-  for (const char* text : {"2025-03-12T10:30Z", "2025-03-12T10:30:00+01:00",
-                           "2025-03-12 10:30 -0700", "2025-03-12T10:30+02"}) {
-    const auto time = ReadDateTime(text);
-    ASSERT_TRUE(time) << text;
-    EXPECT_EQ(*time, k12March_s + kHalfPastTen_s) << text;
-  }
-}
-
-TEST(ReadDateTime, RefusesDayAndMonthThatCouldBeExchanged) {
-  for (const char* text : {"03/04/2025", "12/12/2025 10:30", "1/2/25", "13/14/2025"}) {
-    EXPECT_FALSE(ReadDateTime(text)) << text;
-  }
-}
-
-TEST(ReadDateTime, RefusesDatesThatNoCalendarHas) {
-  for (const char* text :
-       {"2025-02-29", "1900-02-29", "2025-02-30", "2025-04-31", "2025-00-10", "2025-13-10",
-        "2025-01-00", "2025-01-32", "31.4.2025", "0001-01-01", "0099-01-01", "3000-01-01",
-        "2025-2147483647-01", "2025-01-2147483647", "2025-99999999999-01"}) {
-    EXPECT_FALSE(ReadDateTime(text)) << text;
-  }
-}
-
-TEST(ReadDateTime, RefusesTimesThatNoClockHas) {
-  for (const char* time : {"24:00", "10:60", "10:30:61", "13:30 PM", "0:30 AM", "2147483647:00",
-                           "10:2147483647", "10", "10:", ":30", "10:30 XM", "10:30-", "10:30+1:"}) {
-    EXPECT_FALSE(ReadDateTime(std::string("2025-03-12 ") + time)) << time;
-  }
-}
-
-TEST(ReadDateTime, RefusesOtherTexts) {
-  for (const char* text :
-       {"", " ", "\"", "noon", "2025", "2025-03", "2025-03/12", "20250312", "2025-03-12x",
-        "2025-03-12T", "2025-03-12 10:30 h", "-2025-03-12", "12 March 2025", "1741775400"}) {
-    EXPECT_FALSE(ReadDateTime(text)) << text;
-  }
+TEST(ReadDateTime, ReadsAllFormsAndRefusesTheRest) {
+  CheckCases(
+      "curve_words",
+      {{"date",
+        [](const std::string& text) {
+          const auto time = ReadDateTime(text);
+          return time ? fmt::format("{} and {:.10g} s", DateText(*time), std::fmod(*time, kDay_s))
+                      : "none";
+        }},
+       {"technology", [](const std::string& text) {
+          const Technology* const found = FindTechnology(text);
+          return fmt::format("{}, {}, junctions {}", found ? found->name : "none",
+                             IsThinFilm(text) ? "thin film" : "silicon", JunctionsPerCell(text));
+        }}});
 }
 
 TEST(ReadDateTime, KnowsLeapYears) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "lyrefit/base/random.h"
-#include "synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "lyrefit/devices/cell_figures.h"
-#include "made_cell.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -7,9 +7,10 @@
 #include <map>
 
 #include "lyrefit/devices/describe_cell.h"
+#include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
-#include "made_cell.h"
 #include "repeats.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

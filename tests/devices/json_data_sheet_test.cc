@@ -16,31 +16,14 @@ namespace lyrefit {
 namespace {
 
 using nlohmann::json;
-using Set = std::set<std::string>;
-
-TEST(DataSheetJson, HoldsExactlyTheKeysOfTheContract) {
-  const json j = json::parse(DataSheetJson(SampleDataSheetFit()));
-  EXPECT_EQ(Keys(j), (Set{"lyrefit_version", "law", "model", "cells_in_series", "constants",
-                          "parameters", "checks", "largest_relative_error", "warnings", "family"}));
-  EXPECT_EQ(Keys(j["parameters"]["R_s"]), (Set{"symbol", "name", "unit", "value", "low", "high"}));
-  EXPECT_EQ(j["parameters"]["R_s"]["high"], 0.41);
-  EXPECT_TRUE(j["parameters"]["R_sh_ref"]["value"].is_null());
-  EXPECT_TRUE(j["parameters"]["EgRef"]["low"].is_null());
-  EXPECT_EQ(j["checks"]["beta_oc"]["printed"], -0.076);
-}
 
 TEST(DataSheetJson, HoldsTheFamily) {
   const DataSheetFit fit = *FitDataSheet(SampleSheet());
   const json family = json::parse(DataSheetJson(fit))["family"];
-  EXPECT_EQ(Keys(family),
-            (Set{"bound", "sharp_knee", "conditions", "spread", "picked", "rounding", "members"}));
   EXPECT_EQ(family["bound"], "shunt_conductance");
   EXPECT_EQ(family["members"].size(), fit.family.members.size());
-  EXPECT_TRUE(family["members"].back()["R_sh_ref"].is_null());
-  EXPECT_EQ(Keys(family["picked"]),
-            (Set{"n", "I_L_ref", "I_o_ref", "R_s", "R_sh_ref", "beta_oc_V_K", "gamma_pmp_percent_K",
-                 "max_power_W", "difference_A"}));
   EXPECT_EQ(family["picked"]["max_power_W"].size(), family["conditions"].size());
+  EXPECT_TRUE(family["members"].back()["R_sh_ref"].is_null());
   EXPECT_LT(family["rounding"]["low"]["n"], family["picked"]["n"]);
   EXPECT_LT(family["rounding"]["spread"]["difference_A"], family["spread"]["difference_A"]);
   DataSheet exact = SampleSheet();

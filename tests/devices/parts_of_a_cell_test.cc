@@ -6,7 +6,7 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/devices/cell_figures.h"
 #include "lyrefit/devices/describe_sweep.h"
-#include "made_cell.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

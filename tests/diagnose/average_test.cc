@@ -12,6 +12,7 @@
 #include "diagnose/synthetic_diagnosis.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/measurement.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 namespace {

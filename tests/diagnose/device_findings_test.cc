@@ -5,6 +5,7 @@
 
 #include "diagnose/synthetic_data.h"
 #include "diagnose/synthetic_diagnosis.h"
+#include "lyrefit/model/kernel.h"
 #include "repeats.h"
 
 namespace lyrefit {

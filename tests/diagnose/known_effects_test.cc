@@ -8,6 +8,7 @@
 
 #include "diagnose/synthetic_diagnosis.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 namespace {

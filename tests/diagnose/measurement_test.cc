@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "error_of.h"
-#include "model/synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/measurement.h"
-#include "model/synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "error_of.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "model/synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -10,7 +10,7 @@
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/expectation.h"
-#include "model/synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

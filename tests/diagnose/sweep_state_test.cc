@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "model/synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -9,7 +9,7 @@
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/weighted_data.h"
 #include "lyrefit/effects/catalogue.h"
-#include "model/synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 

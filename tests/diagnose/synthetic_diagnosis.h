@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lyrefit/diagnose/diagnose.h"
-#include "model/synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 

@@ -7,7 +7,7 @@
 
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/model/make_readings.h"
-#include "model/synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

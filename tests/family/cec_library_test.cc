@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "error_of.h"
 #include "lyrefit/family/family_documents.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/read/read_module.h"
@@ -15,8 +14,6 @@
 
 namespace lyrefit {
 namespace {
-
-using ::testing::HasSubstr;
 
 const std::string kLibrary = std::string(LYREFIT_DATA_DIR) + "/datasheet/invented_cec.csv";
 
@@ -36,41 +33,6 @@ TEST(ReadCecParameters, TakeOneModuleOfALibrary) {
     EXPECT_EQ(module->shared[at.bandgap_slope], -0.0002677);
   }
   EXPECT_TRUE(ReadModuleParameters(kLibrary + "#Invented \"T\" 60, black"));
-}
-
-TEST(ReadCecParameters, SayWhichModulesThereAre) {
-  EXPECT_THAT(
-      MessageOf(ReadModuleParameters(kLibrary)),
-      HasSubstr("a library of 2 modules: choose one as FILE#NAME, of 'Invented I-304 M60'"));
-  EXPECT_THAT(MessageOf(ReadModuleParameters(kLibrary + "#None")),
-              HasSubstr("there is no module 'None': choose one as FILE#NAME"));
-}
-
-class BadLibrary : public ::testing::Test {
- protected:
-  static constexpr char kHead[] =
-      "Name,N_s,alpha_sc,a_ref,I_L_ref,I_o_ref,R_s,R_sh_ref,Adjust\n"
-      "Units,,A/K,V,A,A,Ohm,Ohm,%\n[0],a,b,c,d,e,f,g,h\n";
-  static void ExpectError(const std::string& rows, int line, int column, const std::string& says) {
-    ExpectErrorAt(ReadCecParameters(kHead + rows, "bad.csv", ""), "bad.csv", line, column, says);
-  }
-};
-
-TEST_F(BadLibrary, IsRefusedWithLineAndColumn) {
-  EXPECT_TRUE(ReadCecParameters(std::string(kHead) + "m,60,0.005,1.5,9,1e-10,0.2,400,5\n", "", ""));
-  ExpectError("m,60,x,1.5,9,1e-10,0.2,400,5\n", 4, 6, "a number in column alpha_sc, found 'x'");
-  ExpectError("m,60,0.005,1.5,9,-1e-10,0.2,400,5\n", 4, 18, "above 0 in column I_o_ref");
-  ExpectError("m,60,0.005,1.5,nan,1e-10,0.2,400,5\n", 4, 16, "column I_L_ref, found 'nan'");
-  ExpectError("m,60,0.005,1.5,9,1e-10,-0.2,400,5\n", 4, 24, "from 0 in column R_s");
-  ExpectError("m,60.5,0.005,1.5,9,1e-10,0.2,400,5\n", 4, 3, "a whole number of cells");
-  ExpectError("m,60,0.005,1.5,9,1e-10,0.2,400,500\n", 4, 32, "from -100 to 100 in column Adjust");
-  ExpectError("m,60,0.005,1.5,9,1e-10,0.2,400\n", 4, 1, "expected a column Adjust");
-  ExpectError("", 0, 0, "holds none");
-  ExpectError("\"m,60\n", 4, 1, "quotes do not close");
-  const auto twice = ReadCecParameters(
-      std::string(kHead) + "m,60,0,1.5,9,1e-10,0.2,400,5\nm,60,0,1.5,9,1e-10,0.2,400,5\n",
-      "bad.csv", "m");
-  ExpectErrorAt(twice, "bad.csv", 5, 1, "the module 'm' is there twice: here and in line 4");
 }
 
 // A row as PvlibJson writes it, in JSON.

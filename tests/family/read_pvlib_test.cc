@@ -1,6 +1,5 @@
 #include "lyrefit/read/read_pvlib.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +17,6 @@ namespace lyrefit {
 namespace {
 
 using nlohmann::json;
-using ::testing::HasSubstr;
 
 std::string Written(const Translation& translation, const std::vector<double>& shared) {
   const auto keywords = PvlibParameters(translation, shared);
@@ -128,77 +126,6 @@ TEST(ReadPvlibParameters, TakesADictionaryOfAPvlibUser) {
   const auto other = ReadPvlibParameters(folder.Write("bare.json", bare.dump()));
   ASSERT_TRUE(other.has_value()) << other.error().ToString();
   ExpectTheSameCurves(pvsyst, thin, *other, 82);
-}
-
-class BadPvlibFile : public ::testing::Test {
- protected:
-  std::string Complaint(const std::string& text) const {
-    const auto read = ReadPvlibParameters(folder_.Write("bad.json", text));
-    return read ? "" : read.error().ToString();
-  }
-
-  // The error for the dictionary with `value` at `key`.
-  std::string With(const char* key, const json& value) const {
-    json changed = good_;
-    changed[key] = value;
-    return Complaint(changed.dump(2));
-  }
-
-  std::string Without(const char* key) const {
-    json changed = good_;
-    changed.erase(key);
-    return Complaint(changed.dump(2));
-  }
-
-  TempFolder folder_;
-  json good_ = Keywords(*MakeTranslation(DeSoto60()), kSilicon);
-};
-
-TEST_F(BadPvlibFile, IsRefusedForAMissingKey) {
-  EXPECT_THAT(Without("I_L_ref"), HasSubstr("bad.json: expected a number for the key \"I_L_ref\""));
-  EXPECT_THAT(Without("R_sh_ref"), HasSubstr("R_sh_ref"));
-  EXPECT_THAT(Without("a_ref"), HasSubstr("by De Soto (with the key \"a_ref\") or PVsyst"));
-  json pvsyst = good_;
-  pvsyst.erase("a_ref");
-  pvsyst.erase("cells_in_series");
-  pvsyst["gamma_ref"] = 1.1;
-  EXPECT_THAT(Complaint(pvsyst.dump()), HasSubstr("cells_in_series"));
-}
-
-TEST_F(BadPvlibFile, IsRefusedForTextWithItsLineAndColumn) {
-  EXPECT_THAT(With("R_s", "much"), HasSubstr("expected a number in \"R_s\", found"));
-  EXPECT_THAT(Complaint("{\n  \"a_ref\": 1.5,\n  \"I_L_ref\": \"x\"}"), HasSubstr("bad.json:3:3:"));
-  EXPECT_THAT(Complaint("{\n \"a_ref\": Infinity}"), HasSubstr("bad.json:2:"));
-  EXPECT_THAT(Complaint("[1, 2]"), HasSubstr("bad.json:1:1: expected an object"));
-  EXPECT_THAT(Complaint("{\"parameters\": 3}"), HasSubstr("expected an object in \"parameters\""));
-  EXPECT_THAT(Complaint(""), HasSubstr("bad.json"));
-}
-
-TEST_F(BadPvlibFile, IsRefusedForValuesThatNoDeviceHas) {
-  EXPECT_THAT(With("I_o_ref", 0), HasSubstr("expected a number above 0 in \"I_o_ref\""));
-  EXPECT_THAT(With("R_s", -0.1), HasSubstr("expected a number of at least 0 in \"R_s\""));
-  EXPECT_THAT(With("cells_in_series", 0), HasSubstr("cells_in_series"));
-  EXPECT_THAT(With("cells_in_series", 36.5), HasSubstr("a whole number"));
-  EXPECT_THAT(With("irrad_ref", 800), HasSubstr("expected the reference 1000 in \"irrad_ref\""));
-  EXPECT_THAT(With("temp_ref", 20), HasSubstr("expected the reference 25 in \"temp_ref\""));
-}
-
-TEST_F(BadPvlibFile, IsRefusedForAnUnknownLaw) {
-  json wrapped = {{"function", "sapm"}, {"parameters", good_}};
-  EXPECT_THAT(Complaint(wrapped.dump(2)), HasSubstr("bad.json:2:3: expected calcparams_desoto, "
-                                                    "calcparams_cec or calcparams_pvsyst"));
-  wrapped["function"] = "calcparams_cec";
-  EXPECT_THAT(Complaint(wrapped.dump(2)), HasSubstr("a number for the key \"Adjust\""));
-  wrapped["parameters"]["Adjust"] = -101;
-  EXPECT_THAT(Complaint(wrapped.dump(2)), HasSubstr("Adjust"));
-  EXPECT_THAT(With("gamma_ref", 1.1), HasSubstr("found the keys of two"));
-  EXPECT_THAT(Complaint("{}"), HasSubstr("expected pvlib's parameters"));
-}
-
-TEST_F(BadPvlibFile, IsRefusedWhereThereIsNone) {
-  const auto read = ReadPvlibParameters(folder_.Path("none.json"));
-  ASSERT_FALSE(read.has_value());
-  EXPECT_THAT(read.error().ToString(), HasSubstr("none.json"));
 }
 
 }  // namespace

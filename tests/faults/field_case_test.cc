@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "faults/field_misfit.h"
+#include "faults/for_each.h"
 
 namespace faults::field {
 namespace {
@@ -31,11 +31,8 @@ TEST(FieldCase, OfEveryKindCanBeMadeAndSaysWhatIsInIt) {
 TEST(FieldCase, IsTheSameOnAnyThread) {
   const std::vector<std::string> kinds = {"clean_module", "weak_cell", "light_dip", "hysteresis"};
   std::vector<Case> threaded(kinds.size());
-  std::vector<std::thread> threads;
-  for (std::size_t k = 0; k < kinds.size(); ++k) {
-    threads.emplace_back([&, k] { threaded[k] = MakeCase(kinds[k], 12); });
-  }
-  for (std::thread& thread : threads) thread.join();
+  ForEach(static_cast<int>(kinds.size()), static_cast<int>(kinds.size()),
+          [&](int k) { threaded[k] = MakeCase(kinds[k], 12); });
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const Case made = MakeCase(kinds[k], 12);
     EXPECT_EQ(made.measurement.current, threaded[k].measurement.current);

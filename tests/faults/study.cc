@@ -1,31 +1,18 @@
 #include "faults/study.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <map>
-#include <thread>
 
 namespace faults {
 
 Mode ModeOf(const StudyOptions& options) {
   const bool field = options.asked.empty() ? options.mode == "field" : options.asked == "field";
   return field ? Mode::kField : Mode::kLaboratory;
-}
-
-void ForEach(int count, int threads, const std::function<void(int)>& body) {
-  if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
-  std::atomic<int> next{0};
-  std::vector<std::thread> workers;
-  for (int t = 0; t < std::max(1, std::min(threads, count)); ++t) {
-    workers.emplace_back([&] {
-      for (int i = next++; i < count; i = next++) body(i);
-    });
-  }
-  for (std::thread& worker : workers) worker.join();
 }
 
 double Percent(int part, int whole) {
@@ -89,7 +76,7 @@ constexpr const char* kUsage =
     "fault_study MODE [--kind fwd|rev|updown|dark|famG|famGT|all] [--effect ID|all] [--cases N]\n"
     "             [--probability P] [--seed N] [--threads N] [--csv FILE]\n"
     "             [--rows FILE] [--number I]\n"
-    "MODE: silence, power, pairs, confusion, size, show\n"
+    "MODE: silence, power, pairs, show\n"
     "fault_study calibration [--asked laboratory|field | --real FOLDER] [--cases N] [--csv FILE]\n"
     "fault_study field [--effect KIND|all] [--cases N] [--misfit-above PERCENT] [--rows FILE]\n"
     "             [--show KIND --number I] [--dump FOLDER]\n";
@@ -129,10 +116,8 @@ bool Read(int argc, char** argv, StudyOptions* options) {
 int main(int argc, char** argv) {
   using namespace faults;
   const std::map<std::string, int (*)(const StudyOptions&)> modes = {
-      {"silence", StudySilence}, {"power", StudyPower},
-      {"pairs", StudyPairs},     {"confusion", StudyConfusion},
-      {"size", StudySize},       {"show", ShowCase},
-      {"field", StudyField},     {"calibration", StudyCalibration}};
+      {"silence", StudySilence}, {"power", StudyPower}, {"pairs", StudyPairs},
+      {"show", ShowCase},        {"field", StudyField}, {"calibration", StudyCalibration}};
   StudyOptions options;
   if (!Read(argc, argv, &options) || modes.count(options.mode) == 0) {
     std::fputs(kUsage, stderr);

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 
 #include <vector>
 #include "faults/adapter.h"
-
+#include "faults/for_each.h"
 #include "faults/score.h"
 
 namespace faults {
@@ -38,10 +37,6 @@ int StudySilence(const StudyOptions& options);
 int StudyPower(const StudyOptions& options);
 // How often both of two simultaneous effects are named.
 int StudyPairs(const StudyOptions& options);
-// First names claimed for each effect with a misfit of at least 7 noise standard deviations.
-int StudyConfusion(const StudyOptions& options);
-// How often the 95 % interval of the size of a named effect contains the truth.
-int StudySize(const StudyOptions& options);
 // Field simulator (field_*.h): rates of cases with a claim, of right names and of spurious claims,
 // and the errors of lights and shares. Or writes its cases as tables. `effect` is a kind of
 // field_case.h.
@@ -53,9 +48,6 @@ int StudyCalibration(const StudyOptions& options);
 // Writes one case of `power` or, without an effect, of `silence` as a table of readings. The causes
 // and the answer go to standard error.
 int ShowCase(const StudyOptions& options);
-
-// Calls body(0) .. body(count - 1) in parallel. Each call must write only to its own slot.
-void ForEach(int count, int threads, const std::function<void(int)>& body);
 
 // A simulated case and its answer. `made` is false if none of the drawn devices could have the
 // effect.

@@ -5,13 +5,13 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
-#include "draw.h"
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/model/kernel.h"
 #include "model/kernels_agree.h"
 #include "model/open_circuit.h"
 #include "repeats.h"
+#include "synthetic/draw.h"
 
 namespace lyrefit {
 namespace {

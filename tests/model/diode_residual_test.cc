@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "draw.h"
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"
@@ -22,6 +21,7 @@
 #include "lyrefit/read/read_curve.h"
 #include "model/open_circuit.h"
 #include "repeats.h"
+#include "synthetic/draw.h"
 
 namespace lyrefit {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "error_of.h"
-#include "synthetic_curve.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "draw.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/model/kernel.h"
 #include "repeats.h"
+#include "synthetic/draw.h"
 
 namespace lyrefit {
 namespace {

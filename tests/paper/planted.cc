@@ -10,6 +10,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/certify/mixture.h"
 #include "lyrefit/model/kernel.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {
@@ -308,14 +309,7 @@ SyntheticProblem MakeWideProblem(std::uint64_t seed, int number) {
   };
   if (number % 3 == 1) {
     const double last = (0.75 + 0.25 * random.Uniform()) * largest(curve.voltage_V);
-    IvCurve part = curve;
-    part.voltage_V.clear();
-    part.current_A.clear();
-    for (std::size_t k = 0; k < curve.size(); ++k) {
-      if (curve.voltage_V[k] > last) continue;
-      part.voltage_V.push_back(curve.voltage_V[k]);
-      part.current_A.push_back(curve.current_A[k]);
-    }
+    const IvCurve part = UpTo(last, curve);
     if (part.size() >= kFewestPoints) curve = part;
   }
   const double reach = 0.9 + 0.8 * random.Uniform();

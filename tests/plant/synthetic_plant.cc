@@ -1,14 +1,13 @@
 #include "plant/synthetic_plant.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <thread>
 
+#include "faults/for_each.h"
 #include "faults/random.h"
 #include "plant/synthetic_strings.h"
 
@@ -101,24 +100,10 @@ bool IsMeasured(const Slot& slot) {
   return slot.change == nullptr || slot.change->of != ChangeOf::kGone;
 }
 
-// Calls work(i) for i < count on several threads.
-template <class Work>
-void ForAll(int count, int threads, const Work& work) {
-  std::atomic<int> next{0};
-  if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
-  std::vector<std::thread> workers;
-  for (int t = 0; t < std::max(threads, 1); ++t) {
-    workers.emplace_back([&] {
-      for (int i = next++; i < count; i = next++) work(i);
-    });
-  }
-  for (std::thread& worker : workers) worker.join();
-}
-
 std::vector<Strung> MeasureAll(const PlantRequest& request, const std::vector<Slot>& slots) {
   std::vector<Strung> strings(slots.size());
-  ForAll(static_cast<int>(slots.size()), request.threads,
-         [&](int i) { strings[i] = Measure(slots[i], request); });
+  faults::ForEach(static_cast<int>(slots.size()), request.threads,
+                  [&](int i) { strings[i] = Measure(slots[i], request); });
   return strings;
 }
 
@@ -183,7 +168,7 @@ double LostPower(const Slot& slot, const std::vector<Slot>& first, const PlantRe
 std::string ChangeTruth(const std::vector<Slot>& slots, const PlantRequest& request) {
   const std::vector<Slot> first = FirstSlots(request);
   std::vector<std::string> lines(slots.size());
-  ForAll(static_cast<int>(slots.size()), request.threads, [&](int k) {
+  faults::ForEach(static_cast<int>(slots.size()), request.threads, [&](int k) {
     const Slot& slot = slots[k];
     if (slot.change == nullptr) return;
     lines[k] =

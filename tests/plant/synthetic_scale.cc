@@ -1,17 +1,16 @@
 #include "plant/synthetic_scale.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 #include <vector>
 
 #include "faults/field_draw.h"
 #include "faults/field_tracer.h"
+#include "faults/for_each.h"
 #include "faults/random.h"
 #include "plant/synthetic_scale_plant.h"
 
@@ -229,17 +228,8 @@ std::string WriteScalePlants(const ScalePlantsRequest& request) {
     if (const std::string error = WriteText(path, SheetOf(t)); !error.empty()) return error;
   }
   std::vector<std::string> errors(static_cast<std::size_t>(request.plants));
-  std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int i = next++; i < request.plants; i = next++) {
-      errors[static_cast<std::size_t>(i)] = WriteOnePlant(request, i);
-    }
-  };
-  int threads = request.threads;
-  if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
-  std::vector<std::thread> workers;
-  for (int t = 0; t < std::max(threads, 1); ++t) workers.emplace_back(work);
-  for (std::thread& worker : workers) worker.join();
+  faults::ForEach(request.plants, request.threads,
+                  [&](int i) { errors[static_cast<std::size_t>(i)] = WriteOnePlant(request, i); });
   for (const std::string& error : errors) {
     if (!error.empty()) return error;
   }

@@ -4,10 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
+#include "cases.h"
 #include "error_of.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
+#include "lyrefit/read/cec_library.h"
 #include "lyrefit/read/read_module.h"
 #include "read/pan_text.h"
 #include "temp_folder.h"
@@ -85,96 +90,71 @@ TEST(ReadPanParameters, AreTheSameInEveryEncoding) {
   }
 }
 
-TEST(ReadPanParameters, WarnOfWhatDoesNotAgree) {
-  const auto warning = [](const PanLines& lines) {
-    const auto module = ReadPanParameters(lines.Text(), "m.PAN");
-    EXPECT_TRUE(module) << module.error().ToString();
-    return module && module->warnings.size() == 1 ? module->warnings[0] : "not one warning";
-  };
-  EXPECT_THAT(warning(kSiliconPan.With("RSerie", "0.300")),
-              HasSubstr("The model of m.PAN gives 297.25 W at 1000 W/m2 and 25 C"));
-  EXPECT_THAT(warning(kSiliconPan.With("Technol", "mtCdTe").With("muPmpReq", "-0.362")),
-              HasSubstr("muPmpReq says -0.362"));
-  EXPECT_THAT(warning(kSiliconPan.With("muISC", "0.05").With("muPmpReq", "0")),
-              HasSubstr("The muISC of m.PAN, 0.05 mA/K, is next to none beside an Isc of 9.74 A"));
-  EXPECT_THAT(warning(kSiliconPan.With("Technol", "mtNew")), HasSubstr("'mtNew' of m.PAN"));
-}
-
-class BadPan : public ::testing::Test {
- protected:
-  static void ExpectError(const std::string& text, int line, int column, const std::string& says) {
-    ExpectErrorAt(ReadPanParameters(text, "bad.PAN"), "bad.PAN", line, column, says);
+// The invented module with changes, "RSerie=0.3; Technol=mtCdTe", or without a key, "Isc".
+std::string Changed(PanLines lines, const std::string& changes) {
+  std::istringstream parts(changes);
+  for (std::string part; parts >> part;) {
+    if (part.back() == ';') part.pop_back();
+    const std::size_t equal = part.find('=');
+    lines = equal == std::string::npos ? lines.Without(part)
+                                       : lines.With(part.substr(0, equal), part.substr(equal + 1));
   }
-};
-
-TEST_F(BadPan, IsRefusedForAMissingKey) {
-  for (const char* key : {"NCelS", "Isc", "Voc", "Imp", "Vmp", "muISC", "RShunt", "Rp_0", "RSerie",
-                          "Gamma", "muGamma"}) {
-    ExpectError(kSiliconPan.Without(key).Text(), 18, 1,
-                std::string("the module ends without ") + key + ": expected ");
-  }
-  ExpectError(kSiliconPan.Without("Isc").Text(), 18, 1, "expected a current in A");
+  return lines.Text();
 }
 
-TEST_F(BadPan, IsRefusedForAValueThatNoModuleHas) {
-  const auto with = [](const char* key, const char* value) {
-    return kSiliconPan.With(key, value).Text();
+template <class Module>
+std::string WarningsOf(const Expected<Module>& module, std::vector<std::string> Module::*warnings) {
+  if (!module) return "error " + module.error().ToString();
+  std::string told = "read";
+  for (const std::string& warning : (*module).*warnings) told += "; " + warning;
+  return told;
+}
+
+// Rows of SAM's library of modules: "MODULE | ROWS", or the rows of the only one.
+std::string Library(const std::string& text) {
+  const std::size_t bar = text.find(" | ");
+  const std::string head =
+      "Name,N_s,alpha_sc,a_ref,I_L_ref,I_o_ref,R_s,R_sh_ref,Adjust\n"
+      "Units,,A/K,V,A,A,Ohm,Ohm,%\n[0],a,b,c,d,e,f,g,h\n";
+  return WarningsOf(
+      ReadCecParameters(head + text.substr(bar == std::string::npos ? 0 : bar + 3), "bad.csv",
+                        bar == std::string::npos ? "" : text.substr(0, bar)),
+      &NamedParameters::warnings);
+}
+
+TEST(ReadModules, WarnOfWhatDoesNotAgreeAndRefuseTheRest) {
+  const auto parameters = [](const PanLines& lines) {
+    return [&lines](const std::string& changes) {
+      return WarningsOf(ReadPanParameters(Changed(lines, changes), "m.PAN"),
+                        &NamedParameters::warnings);
+    };
   };
-  ExpectError(with("Isc", "abc"), 6, 7, "expected a current in A above 0 in Isc, found 'abc'");
-  ExpectError(with("Isc", "NaN"), 6, 7, "found 'NaN'");
-  ExpectError(with("Isc", "inf"), 6, 7, "found 'inf'");
-  ExpectError(with("Isc", "9,74"), 6, 7, "found '9,74'");
-  ExpectError(with("Isc", ""), 6, 7, "found ''");
-  ExpectError(with("Voc", "-39.9"), 7, 7, "expected a voltage in V above 0 in Voc");
-  ExpectError(with("Imp", "9.8"), 8, 7, "expected a current below Isc in Imp, found '9.8'");
-  ExpectError(with("Vmp", "40"), 9, 7, "expected a voltage below Voc in Vmp, found '40'");
-  ExpectError(with("NCelS", "60.5"), 3, 9, "expected a whole number of cells in NCelS");
-  ExpectError(with("NCelS", "0"), 3, 9, "1 to 100000, in NCelS, found '0'");
-  ExpectError(with("RSerie", "-0.1"), 16, 10, "a resistance in ohm of at least 0 in RSerie");
-  ExpectError(with("RShunt", "0"), 13, 10, "a resistance in ohm above 0 in RShunt");
-  ExpectError(with("Gamma", "1e999"), 17, 9, "found '1e999'");
-  // The shunt alone takes more than Isc at Voc; the band gap has no room for the voltage.
-  ExpectError(kSiliconPan.With("RShunt", "3.5").With("Rp_0", "3.5").Text(), 7, 7,
-              "expected a voltage that Isc, RSerie, RShunt, Gamma");
-  ExpectErrorAt(ReadPanParameters(kThinPan.With("Voc", "98").Text(), "thin.PAN"), "thin.PAN", 7, 7,
-                "the technology allow");
-  ExpectErrorAt(
-      ReadPanParameters(kSiliconPan.With("Rp_0", "960000").With("Rp_Exp", "1.1").Text(), "bad.PAN"),
-      "bad.PAN", 0, 0, "0 ohm");
-}
-
-TEST_F(BadPan, IsRefusedForAnotherUnit) {
-  const auto with = [](const char* key, const char* value) {
-    return kSiliconPan.With(key, value).Text();
+  const auto file = [](const char* name) {
+    return [name](const std::string& text) {
+      const TempFolder folder;
+      auto module = ReadModuleParameters(folder.Write(name, text));
+      if (!module) module.error().file = name;
+      return WarningsOf(module, &NamedParameters::warnings) +
+             (module && !module->cells_stated ? "; cells not stated" : "");
+    };
   };
-  ExpectError(with("TRef", "298.15"), 5, 8, "expected the reference 25 C in TRef, found '298.15'");
-  ExpectError(with("GRef", "1.0"), 4, 8, "expected the reference 1000 W/m2 in GRef");
-  ExpectError(with("muISC", "4870"), 10, 9,
-              "expected a coefficient in mA/K, -48.7 to 48.7, in muISC");
-  ExpectErrorAt(ReadPanSheet(with("muVocSpec", "-0.31"), "bad.PAN"), "bad.PAN", 11, 13,
-                "expected a negative coefficient in mV/K of a Voc of 39.9 V, not in percent");
-  ExpectErrorAt(ReadPanSheet(with("muVocSpec", "122.5"), "bad.PAN"), "bad.PAN", 11, 13, "negative");
+  CheckCases("read_modules", {{"silicon", parameters(kSiliconPan)},
+                              {"thin", parameters(kThinPan)},
+                              {"sheet",
+                               [](const std::string& changes) {
+                                 return WarningsOf(
+                                     ReadPanSheet(Changed(kSiliconPan, changes), "m.PAN"),
+                                     &ModuleSheet::assumptions);
+                               }},
+                              {"file", file("bad.PAN")},
+                              {"pvlib", file("bad.json")},
+                              {"cec", Library}});
 }
 
-TEST_F(BadPan, IsRefusedForItsStructure) {
-  const std::string text = kSiliconPan.Text();
-  ExpectError(text.substr(0, text.find("End of")), 18, 1,
-              "the file ends within the block 'PVObject_=pvModule' of line 1: expected \"End of");
-  ExpectError("\n  PVObject_=pvInverter\nEnd of PVObject pvInverter\n", 2, 3,
-              "expected a module, PVObject_=pvModule, found 'PVObject_=pvInverter'");
-  std::string twice = text;
-  twice.insert(twice.find("  Voc="), "  Isc=9.75\n");
-  ExpectError(twice, 7, 3, "the module has Isc twice: here and in line 6");
-  ExpectError("PVObject_=pvModule\n  PVObject_IAM=pvIAM\n", 2, 1, "'PVObject_IAM=pvIAM' of line 2");
+TEST(ReadModules, RefuseAFileThatIsTooLarge) {
   const TempFolder folder;
-  const auto read = [&](const std::string& bytes) {
-    return ReadModuleParameters(folder.Write("bad.PAN", bytes));
-  };
-  EXPECT_THAT(MessageOf(read("PVObject_=pvModule" + std::string(9, '\0'))), HasSubstr("binary"));
-  EXPECT_THAT(MessageOf(read("")), HasSubstr("empty"));
-  EXPECT_THAT(MessageOf(read("no module")), HasSubstr("expected a module: pvlib's parameters"));
-  EXPECT_THAT(MessageOf(read("PVObject_=pvModule\n" + std::string(70U << 20, ' '))),
-              HasSubstr("larger"));
+  const std::string large = "PVObject_=pvModule\n" + std::string(70U << 20, ' ');
+  EXPECT_THAT(MessageOf(ReadModuleParameters(folder.Write("bad.PAN", large))), HasSubstr("larger"));
 }
 
 // Values of remarks, incidence angles and operating points are not those of the module.

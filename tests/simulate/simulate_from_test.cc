@@ -14,21 +14,6 @@ namespace {
 using ::nlohmann::json;
 using ::testing::HasSubstr;
 
-TEST(ReadFitForSimulation, RefusesWhatIsNoFitReport) {
-  const TempFolder folder;
-  for (const char* text :
-       {"[1]", "5", "{}", R"({"model":"sd","constants":"codata","parameters":{}})",
-        R"({"model":"sd","constants":"codata","parameters":{},"curve":{"conditions":[]}})",
-        R"({"model":"sd","constants":"codata","parameters":{},"rmse":[1],
-            "curve":{"conditions":{"cells_in_series":1,"cell_temperature_C":25}}})",
-        R"({"model":"sd","constants":"codata","parameters":{},
-            "curve":{"conditions":{"cells_in_series":-1,"cell_temperature_C":25}}})"}) {
-    const auto options = ReadFitForSimulation(folder.Write("fit.json", text));
-    ASSERT_FALSE(options) << text;
-    EXPECT_THAT(options.error().ToString(), HasSubstr("fit.json")) << text;
-  }
-}
-
 // A minimal report of two curves with one law.
 json Shared() {
   const auto value = [](const char* symbol, double refined) {

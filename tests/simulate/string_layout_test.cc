@@ -1,33 +1,23 @@
 #include "lyrefit/simulate/read_string_layout.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
+#include "cases.h"
 #include "effects/synthetic_readings.h"
 #include "temp_folder.h"
 
-#include "lyrefit/simulate/read_string_layout.h"
-
 namespace lyrefit {
 namespace {
-
-using ::testing::HasSubstr;
 
 StringLayout Layout(const std::string& text) {
   const TempFolder folder;
   const auto layout = ReadStringLayout(folder.Write("layout.json", text));
   EXPECT_TRUE(layout) << layout.error().ToString();
   return layout.value_or(StringLayout());
-}
-
-std::string ErrorOf(const std::string& text) {
-  const TempFolder folder;
-  const auto layout = ReadStringLayout(folder.Write("layout.json", text));
-  return layout ? "no error" : layout.error().ToString();
 }
 
 constexpr char kTwoStrings[] =
@@ -52,53 +42,27 @@ TEST(StringLayoutTest, ReadsWhatItsHeaderShows) {
   EXPECT_EQ(layout.groups.size(), 3U);
 }
 
-TEST(StringLayoutTest, ReadsSubstringsAndTakesEqualOnesTogether) {
-  const StringLayout layout = Layout(kTwoStrings);
-  EXPECT_EQ(layout.cells_in_series, 36);
-  EXPECT_EQ(layout.strings, 2);
-  ASSERT_EQ(layout.substrings.size(), 3U);
-  ASSERT_EQ(layout.groups.size(), 4U);
-  EXPECT_EQ(layout.substrings[0].string, 0);
-  EXPECT_EQ(layout.substrings[2].string, 1);
-  EXPECT_TRUE(layout.substrings[2].bypassed);
-  EXPECT_EQ(layout.substrings[1].cells, 12);
-  EXPECT_DOUBLE_EQ(layout.groups[0].share, 0.5);
-  EXPECT_DOUBLE_EQ(layout.groups[1].share, 24.0 / 72);
-  EXPECT_DOUBLE_EQ(layout.groups[3].share, 1.0 / 72);
-  EXPECT_EQ(layout.groups[3].light, 0.4);
-  EXPECT_EQ(layout.groups[3].leak_S, 0.05);
-  EXPECT_EQ(layout.bypass_voltage_V, 0.45);
-  EXPECT_EQ(layout.bypass_ideality, 1.1);
-  EXPECT_EQ(layout.reverse, ReverseLaw::kSoft);
-  EXPECT_EQ(layout.reverse_voltage_V, 3.1);
-  EXPECT_EQ(layout.reverse_exponent, 3.4);
+std::string Told(const std::string& text) {
+  const TempFolder folder;
+  const std::string path = folder.Write("layout.json", text);
+  const auto read = ReadStringLayout(path);
+  if (!read) return "error " + read.error().ToString().substr(folder.Path("").size());
+  std::string told = fmt::format(
+      "{} strings of {} cells, bypass {} V, n {}, reverse {} V, m {}, law {}", read->strings,
+      read->cells_in_series, read->bypass_voltage_V, read->bypass_ideality, read->reverse_voltage_V,
+      read->reverse_exponent, static_cast<int>(read->reverse));
+  for (const auto& one : read->substrings) {
+    told += fmt::format("; substring of {} in string {}{}", one.cells, one.string,
+                        one.bypassed ? ", bypassed" : "");
+  }
+  for (const auto& one : read->groups) {
+    told += fmt::format("; group {:.6g}, light {}, leak {} S", one.share, one.light, one.leak_S);
+  }
+  return told;
 }
 
-TEST(StringLayoutTest, NamesThePlaceOfWhatItCannotRead) {
-  EXPECT_THAT(ErrorOf("{"), HasSubstr("expected valid JSON"));
-  EXPECT_THAT(ErrorOf("[]"), HasSubstr("expected an object with bypass_diode, reverse, strings"));
-  EXPECT_THAT(ErrorOf(R"({"strings": []})"), HasSubstr("expected a list \"strings\""));
-  EXPECT_THAT(ErrorOf(R"({"strings": [[]]})"), HasSubstr("strings[0]: expected a list of parts"));
-  EXPECT_THAT(ErrorOf(R"({"strings": [[{"cells": [{"count": 1.5}]}]]})"),
-              HasSubstr("strings[0][0].cells[0].count: expected a whole number, found 1.5"));
-  EXPECT_THAT(ErrorOf(R"({"strings": [[{"cells": [{"light": -1}]}]]})"),
-              HasSubstr("strings[0][0].cells[0].light: expected a number from 0 to 2, found -1"));
-  EXPECT_THAT(ErrorOf(R"({"strings": [[{"cells": [{"lite": 1}]}]]})"),
-              HasSubstr("strings[0][0].cells[0]: there is no \"lite\""));
-  EXPECT_THAT(ErrorOf(R"({"strings": [[{"bypass": 1, "cells": [{}]}]]})"),
-              HasSubstr("strings[0][0].bypass: expected true or false, found 1"));
-  EXPECT_THAT(ErrorOf(R"({"strings": [[{"cells": [{"count": 3}]}],
-                                      [{"cells": [{"count": 4}]}]]})"),
-              HasSubstr("expected as many cells in each, found 3 and 4"));
-  EXPECT_THAT(ErrorOf(R"({"reverse": {"law": "none"}, "strings": [[{"cells": [{}]}]]})"),
-              HasSubstr("\"law\" to be shunt, bishop or soft"));
-  EXPECT_THAT(ErrorOf(R"({"reverse": {"law": "soft", "a": 1}, "strings": [[{"cells": [{}]}]]})"),
-              HasSubstr("reverse: there is no \"a\", expected law, A_V, m"));
-  std::string many = R"({"strings": [[{"cells": [)";
-  for (int k = 0; k < 13; ++k) {
-    many += fmt::format("{}{{\"light\": 0.{}}}", k > 0 ? "," : "", k + 11);
-  }
-  EXPECT_THAT(ErrorOf(many + "]}]]}"), HasSubstr("at most 12 kinds of cells"));
+TEST(StringLayoutTest, IsReadOrNamesThePlaceOfWhatItCannotRead) {
+  CheckCases("string_layouts", {{"layout", Told}});
 }
 
 // Currents of a device with this layout of cells.

@@ -9,7 +9,7 @@
 #include "lyrefit/model/default_values.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
-#include "studies/draw.h"
+#include "synthetic/draw.h"
 
 namespace lyrefit {
 namespace {
@@ -29,25 +29,25 @@ constexpr int kMostSetCurves = 30;
 // offsets assumes that value.
 std::vector<double> DrawModule(const Translation& t, bool known_bandgap, RandomStream* random) {
   std::vector<double> p(t.parameters.size(), 0);
-  const double isc = Between(3, 10, random);
-  const double voc = t.spec.cells_in_series * Between(0.55, 0.70, random);
-  const double n = Between(1.0, t.n_2 >= 0 ? 1.2 : 1.4, random);
-  const double rs = Between(0.005, 0.03, random) * voc / isc;
-  const double rsh = LogBetween(20, 500, random) * voc / isc;
+  const double isc = Between(random, 3, 10);
+  const double voc = t.spec.cells_in_series * Between(random, 0.55, 0.70);
+  const double n = Between(random, 1.0, t.n_2 >= 0 ? 1.2 : 1.4);
+  const double rs = Between(random, 0.005, 0.03) * voc / isc;
+  const double rsh = LogUniform(random, 20, 500) * voc / isc;
   p[t.n] = n;
   p[t.resistance_series] = rs;
   p[t.resistance_shunt] = rsh;
-  p[t.alpha_sc] = Between(2e-4, 8e-4, random) * isc;
+  p[t.alpha_sc] = Between(random, 2e-4, 8e-4) * isc;
   p[t.photocurrent] = isc * (1 + rs / rsh);  // the diode current at 0 V is negligible
   const bool pvsyst = t.spec.law == TranslationLaw::kPvsyst;
-  const double bandgap_eV = Between(1.10, 1.14, random);
+  const double bandgap_eV = Between(random, 1.10, 1.14);
   p[t.bandgap] = pvsyst || known_bandgap ? kDefaultBandgap_eV : bandgap_eV;
   if (t.bandgap_slope >= 0) p[t.bandgap_slope] = kDefaultBandgapSlope_per_K;
-  if (t.n_slope >= 0) p[t.n_slope] = Between(-1e-3, 1e-3, random);
-  if (t.resistance_shunt_dark >= 0) p[t.resistance_shunt_dark] = Between(2, 8, random) * rsh;
+  if (t.n_slope >= 0) p[t.n_slope] = Between(random, -1e-3, 1e-3);
+  if (t.resistance_shunt_dark >= 0) p[t.resistance_shunt_dark] = Between(random, 2, 8) * rsh;
   if (t.shunt_exponent >= 0) p[t.shunt_exponent] = kDefaultShuntExponent;
   const double diodes_A = p[t.photocurrent] - voc / rsh;
-  const double second = t.n_2 >= 0 ? Between(0.02, 0.5, random) : 0;
+  const double second = t.n_2 >= 0 ? Between(random, 0.02, 0.5) : 0;
   const double thermal_V = t.device.module_thermal_voltage_V;
   p[t.saturation_current] = SaturationCurrent((1 - second) * diodes_A, voc, n * thermal_V);
   if (t.n_2 >= 0) {

@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "lyrefit/base/seconds.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/model/two_junctions.h"
 #include "lyrefit/report/document.h"
 #include "lyrefit/report/text_layout.h"
-#include "studies/draw.h"
+#include "synthetic/draw.h"
 
 namespace lyrefit {
 namespace {
@@ -34,13 +35,13 @@ constexpr JunctionRange kRanges[2][2] = {
 void DrawJunction(const JunctionRange& range, double area_cm2, int j, RandomStream* random,
                   std::vector<double>* p) {
   const double thermal_V = ThermalVoltage(kTandemTemperature_K);
-  const double current = 1e-3 * area_cm2 * Between(range.low_current, range.high_current, random);
-  const double voltage = Between(range.low_voltage, range.high_voltage, random);
-  const double n = Between(range.low_n, range.high_n, random);
+  const double current = 1e-3 * area_cm2 * Between(random, range.low_current, range.high_current);
+  const double voltage = Between(random, range.low_voltage, range.high_voltage);
+  const double n = Between(random, range.low_n, range.high_n);
   (*p)[JunctionPhotocurrent(j)] = current;
   (*p)[JunctionSaturation(j)] = SaturationCurrent(current, voltage, n * thermal_V);
   (*p)[JunctionIdeality(j)] = n;
-  (*p)[JunctionShunt(j)] = LogBetween(range.low_shunt, range.high_shunt, random) / area_cm2;
+  (*p)[JunctionShunt(j)] = LogUniform(random, range.low_shunt, range.high_shunt) / area_cm2;
 }
 
 IvCurve SimulateIn(const JunctionsOptions& options, std::vector<double> p, const char* name,
@@ -125,15 +126,15 @@ void Count(const FittedTandem& fitted, std::vector<std::vector<double>>* widths,
 
 SimulatedTandem DrawTandem(const JunctionsOptions& options, int s) {
   RandomStream random(options.seed, static_cast<std::uint64_t>(s));
-  const double area_cm2 = LogBetween(0.1, 20, &random);
+  const double area_cm2 = LogUniform(&random, 0.1, 20);
   SimulatedTandem tandem;
   tandem.set.name = "tandem " + std::to_string(s);
   tandem.truth.resize(kTwoJunctionParameters);
   for (int j = 0; j < 2; ++j) {
     DrawJunction(kRanges[s % 2][j], area_cm2, j, &random, &tandem.truth);
   }
-  tandem.truth[kTwoJunctionSeries] = Between(0.5, 5, &random) / area_cm2;
-  const double red = Between(0.05, 0.2, &random), blue = Between(0.05, 0.2, &random);
+  tandem.truth[kTwoJunctionSeries] = Between(&random, 0.5, 5) / area_cm2;
+  const double red = Between(&random, 0.05, 0.2), blue = Between(&random, 0.05, 0.2);
   const auto add = [&](const char* name, double top, double bottom) {
     tandem.set.curves.push_back(SimulateIn(options, tandem.truth, name, top, bottom, &random));
   };

@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "lyrefit/effects/catalogue.h"
-#include "studies/draw.h"
+#include "lyrefit/model/model_points.h"
+#include "synthetic/draw.h"
 
 namespace lyrefit {
 namespace {
@@ -104,27 +105,27 @@ void DrawMeasurement(double isc_A, double least_noise, double most_noise, Random
   // Half of the tracers step the voltage.
   constexpr Tracer kTracers[] = {Tracer::kVoltage, Tracer::kVoltage, Tracer::kArc, Tracer::kCharge};
   device->tracer = kTracers[random->Index(4)];
-  device->beyond = Between(1, 1.01, random);
-  device->made.points = WholeBetween(60, 150, random);
-  device->made.noise_A = isc_A * LogBetween(least_noise, most_noise, random);
+  device->beyond = Between(random, 1, 1.01);
+  device->made.points = WholeBetween(random, 60, 150);
+  device->made.noise_A = isc_A * LogUniform(random, least_noise, most_noise);
   device->made.seed = random->Bits();
 }
 
 DrawnDevice DrawModule(int substrings, RandomStream* random) {
   DrawnDevice device;
   SimulateOptions& made = device.made;
-  const double isc = Between(4, 10, random);
-  const int cells = substrings * WholeBetween(12, 24, random);
-  const double voc = cells * Between(0.58, 0.68, random);
-  const double n = Between(1, 1.4, random);
+  const double isc = Between(random, 4, 10);
+  const int cells = substrings * WholeBetween(random, 12, 24);
+  const double voc = cells * Between(random, 0.58, 0.68);
+  const double n = Between(random, 1, 1.4);
   const double resistance = voc / isc;
   made.conditions.cells_in_series = cells;
   const double thermal_V = made.conditions.ModuleThermalVoltage(made.constants);
   made.parameters = {{"Iph", isc},
                      {"Is1", SaturationCurrent(isc, voc, n * thermal_V)},
                      {"n1", n},
-                     {"Rs", Between(0.01, 0.04, random) * resistance},
-                     {"Rsh", LogBetween(20, 1000, random) * resistance}};
+                     {"Rs", Between(random, 0.01, 0.04) * resistance},
+                     {"Rsh", LogUniform(random, 20, 1000) * resistance}};
   device.bypass_diodes = substrings;
   DrawMeasurement(isc, 2e-4, 2e-3, random, &device);
   return device;

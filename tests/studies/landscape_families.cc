@@ -1,18 +1,18 @@
 #include "lyrefit/model/default_values.h"
 #include "studies/coverage_sets.h"
-#include "studies/draw.h"
 #include "studies/landscape_draw.h"
+#include "synthetic/draw.h"
 
 namespace lyrefit {
 
 Expected<LandscapeCase> DrawFamily(bool effects, RandomStream* random) {
   CoverageOptions options;
   options.seed = random->Bits();
-  options.curves = WholeBetween(6, 12, random);
-  options.points = WholeBetween(30, 60, random);
+  options.curves = WholeBetween(random, 6, 12);
+  options.points = WholeBetween(random, 30, 60);
   options.noise_relative = 5e-4;
-  options.temperature_error_K = Between(-8, 8, random);
-  options.irradiance_error_W_m2 = Between(-20, 20, random);
+  options.temperature_error_K = Between(random, -8, 8);
+  options.irradiance_error_W_m2 = Between(random, -20, 20);
   options.family.temperature_offset = options.family.irradiance_offset = true;
   auto made = SimulateSet(options, 0);
   if (!made) return tl::unexpected(made.error());

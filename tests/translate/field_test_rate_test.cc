@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <optional>
 
-#include "../draw.h"
 #include "../repeats.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"
@@ -21,6 +20,7 @@
 #include "lyrefit/translate/field_inputs.h"
 #include "lyrefit/translate/prepare.h"
 #include "lyrefit/translate/translation_budget.h"
+#include "synthetic/draw.h"
 
 namespace lyrefit {
 namespace {

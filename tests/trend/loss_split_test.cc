@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "draw.h"
+#include "synthetic/draw.h"
 #include "trend/made_sweeps.h"
 
 namespace lyrefit {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "draw.h"
+#include "synthetic/draw.h"
 
 namespace lyrefit {
 namespace {

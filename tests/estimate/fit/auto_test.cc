@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "estimate/fit/simulated.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/held_out.h"
 #include "lyrefit/read/read_curve.h"
 #include "repeats.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -8,7 +8,7 @@
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/refine/coarsen.h"
 #include "repeats.h"
-#include "simulated.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

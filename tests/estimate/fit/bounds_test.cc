@@ -4,9 +4,10 @@
 
 #include <cmath>
 
-#include "estimate/fit/simulated.h"
+#include "lyrefit/model/kernel.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/settings/bounds_file.h"
+#include "synthetic/curves.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

@@ -8,7 +8,7 @@
 #include "error_of.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"
-#include "simulated.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

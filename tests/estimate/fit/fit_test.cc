@@ -7,9 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "estimate/fit/simulated.h"
+#include "lyrefit/model/kernel.h"
 #include "lyrefit/read/read_curve.h"
 #include "repeats.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

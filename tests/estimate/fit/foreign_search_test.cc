@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "estimate/fit/simulated.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

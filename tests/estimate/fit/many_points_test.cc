@@ -6,10 +6,10 @@
 #include <set>
 #include <string>
 
-#include "estimate/fit/simulated.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "repeats.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

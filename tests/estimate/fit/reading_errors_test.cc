@@ -10,7 +10,7 @@
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/settings/error_file.h"
 #include "repeats.h"
-#include "simulated.h"
+#include "synthetic/curves.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

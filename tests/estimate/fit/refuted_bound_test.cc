@@ -9,7 +9,7 @@
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/read/read_curve.h"
-#include "simulated.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "lyrefit/estimate/fit/fit.h"
-#include "simulated.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

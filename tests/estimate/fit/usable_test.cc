@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "curve/synthetic_curve.h"
 #include "error_of.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/model/kernel.h"
+#include "synthetic/curves.h"
 
 namespace lyrefit {
 namespace {

@@ -26,11 +26,11 @@ TEST(Coarsen, LeavesFewPointsAsTheyAre) {
 TEST(Coarsen, KeepsTheSumOfSquaresAroundTheOptimum) {
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
     const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
-                                                kDoubleTruth, 3e-3, objective, 1, kMany);
+                                                kTwoDiodeTruth, 3e-3, objective, 1, kMany);
     const RefineProblem coarse = Coarsen(problem);
     EXPECT_LE(coarse.points.size, 256);
     EXPECT_EQ(coarse.resistance_scale(), problem.resistance_scale());
-    const RefineEnd best = Refine(problem, kDoubleTruth);
+    const RefineEnd best = Refine(problem, kTwoDiodeTruth);
     EXPECT_NEAR(MeanSquare(coarse, best.p) / best.mean_square, 1, 0.01);
     for (int i = 0; i < problem.device.size(); ++i) {
       std::vector<double> moved = best.p;
@@ -46,12 +46,12 @@ TEST(Coarsen, KeepsTheSumOfSquaresAroundTheOptimum) {
 // more accurately than piecewise linear interpolation.
 TEST(Coarsen, KeepsTheSumOfSquaresOfASmoothCurrent) {
   const RefineProblem problem =
-      ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth, 3e-3,
+      ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kTwoDiodeTruth, 3e-3,
                     Objective::kSolvedCurrent, 1, kMany);
   const RefineProblem coarse = Coarsen(problem);
   EXPECT_LE(coarse.points.size, 128);
   for (int i = 0; i < problem.device.size(); ++i) {
-    std::vector<double> moved = kDoubleTruth;
+    std::vector<double> moved = kTwoDiodeTruth;
     moved[i] *= i == kRsh ? 1.1 : 1.01;
     EXPECT_NEAR(MeanSquare(coarse, moved) / MeanSquare(problem, moved), 1, 1e-4) << i;
   }
@@ -99,9 +99,9 @@ struct Case {
 TEST(Coarsen, GivesTheProfileOfAllPoints) {
   const Case cases[] = {
       {"sd", Model::kSingleDiode, Model::kSingleDiode, kSingleTruth},
-      {"dd", Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth},
+      {"dd", Model::kDoubleDiode, Model::kDoubleDiode, kTwoDiodeTruth},
       {"dd at its bounds", Model::kSingleDiode, Model::kDoubleDiode, kSingleTruth},
-      {"td", Model::kDoubleDiode, Model::kTripleDiode, kDoubleTruth},
+      {"td", Model::kDoubleDiode, Model::kTripleDiode, kTwoDiodeTruth},
   };
   for (const Case& c : cases) {
     // half a minute more without new code

@@ -128,12 +128,12 @@ TEST(Coordinates, SayWhereABoundLiesExactly) {
 TEST(Linearize, AgreesWithCentralDifferencesInEveryCoordinate) {
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
     const RefineProblem problem =
-        ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth, 1e-3, objective);
+        ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kTwoDiodeTruth, 1e-3, objective);
     const std::vector<bool> active = {false, false, false, false, false, true, false};
     const CurveModel model(problem);
-    const Linearization now = Linearize(model, {kDoubleTruth, {}}, active);
+    const Linearization now = Linearize(model, {kTwoDiodeTruth, {}}, active);
     ASSERT_EQ(now.parameter, (std::vector<int>{0, 1, 2, 3, 4, 6}));
-    const Coordinates coordinates(model.shape(), kDoubleTruth, active);
+    const Coordinates coordinates(model.shape(), kTwoDiodeTruth, active);
     const auto evaluate = [&](const std::vector<double>& at, std::vector<double>* residuals) {
       return EvaluateBlock(model, coordinates, 0, at.data(), nullptr, 1.0, residuals->data(),
                            nullptr, nullptr);

@@ -10,7 +10,7 @@ namespace {
 
 RefineProblem Problem(Model truth, int points = 40) {
   return ModuleProblem(truth, Model::kDoubleDiode,
-                       truth == Model::kDoubleDiode ? kDoubleTruth : kSingleTruth, 1e-4,
+                       truth == Model::kDoubleDiode ? kTwoDiodeTruth : kSingleTruth, 1e-4,
                        Objective::kSolvedCurrent, 1, points);
 }
 
@@ -18,9 +18,9 @@ TEST(RemoveFaded, TakesOutADiodeThatShowsNowhereWithItsIdeality) {
   const RefineProblem problem = Problem(Model::kDoubleDiode);
   const CurveModel model(problem);
   std::vector<bool> active(7, false);
-  std::vector<double> p = kDoubleTruth;
+  std::vector<double> p = kTwoDiodeTruth;
   EXPECT_FALSE(RemoveFaded(model.shape(), &p, &active));
-  EXPECT_EQ(p, kDoubleTruth);
+  EXPECT_EQ(p, kTwoDiodeTruth);
   p[5] = 1e-15;
   EXPECT_TRUE(RemoveFaded(model.shape(), &p, &active));
   EXPECT_EQ(p[5], 0);
@@ -33,7 +33,7 @@ TEST(RemoveFaded, LeavesADiodeWhoseBoundIsAbove0) {
   problem.lower[5] = 1e-20;
   const CurveModel model(problem);
   std::vector<bool> active(7, false);
-  std::vector<double> p = kDoubleTruth;
+  std::vector<double> p = kTwoDiodeTruth;
   p[5] = 1e-15;
   EXPECT_FALSE(RemoveFaded(model.shape(), &p, &active));
   EXPECT_EQ(p[5], 1e-15);
@@ -43,14 +43,14 @@ TEST(FindDiodeToAdd, FindsTheDiodeThatTheResidualsAskFor) {
   for (const int points : {40, 2000}) {  // 2000 points are coarsened
     const RefineProblem problem = Problem(Model::kDoubleDiode, points);
     const CurveModel model(problem);
-    FitPoint without{kDoubleTruth, {}};
+    FitPoint without{kTwoDiodeTruth, {}};
     without.p[5] = 0;
     const auto coarse = model.Coarse();
     EXPECT_EQ(coarse != nullptr, points == 2000);
     const DiodeToAdd diode = FindDiodeToAdd(model, coarse.get(), without, 5);
     EXPECT_GT(diode.cosine, 0.9);
-    EXPECT_NEAR(diode.n, kDoubleTruth[6], 0.1);
-    EXPECT_NEAR(diode.size / kDoubleTruth[5], 1, 0.6);
+    EXPECT_NEAR(diode.n, kTwoDiodeTruth[6], 0.1);
+    EXPECT_NEAR(diode.size / kTwoDiodeTruth[5], 1, 0.6);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
 
 namespace lyrefit {

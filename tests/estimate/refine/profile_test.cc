@@ -98,8 +98,8 @@ TEST(FindProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
 // With the diodes exchanged, each n would be as good at the other's value.
 TEST(FindProfileSide, KeepsAlikeDiodesInTheirOrder) {
   const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
-                                              kDoubleTruth, 1e-4, Objective::kSolvedCurrent);
-  const RefineEnd best = Refine(problem, kDoubleTruth);
+                                              kTwoDiodeTruth, 1e-4, Objective::kSolvedCurrent);
+  const RefineEnd best = Refine(problem, kTwoDiodeTruth);
   ASSERT_LT(best.p[IdealityIndex(0)], best.p[IdealityIndex(1)]);
   const int degrees = 33;
   const Spread spread = SpreadOf(problem, best, degrees);

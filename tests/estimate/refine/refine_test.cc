@@ -6,6 +6,7 @@
 
 #include "estimate/refine/test_curves.h"
 #include "lyrefit/estimate/refine/separable.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 namespace {
@@ -28,7 +29,7 @@ TEST(Refine, EndsWhereTheGradientVanishesOrPressesOnABound) {
   for (const Objective objective : kBoth) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
-                                                  kDoubleTruth, 2e-3, objective, seed);
+                                                  kTwoDiodeTruth, 2e-3, objective, seed);
       const RefineEnd end =
           Refine(problem, SeparableDescent(problem, {3.7, 1e-8, 1.1, 0.2, 200, 1e-7, 1.8}));
       EXPECT_LE(end.projected_gradient, 1e-6);
@@ -72,7 +73,7 @@ TEST(Refine, TakesOutADiodeThatIsNotThere) {
 
 TEST(Refine, LetsADiodeInWhereTheResidualsAskForOne) {
   const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
-                                              kDoubleTruth, 1e-5, Objective::kSolvedCurrent);
+                                              kTwoDiodeTruth, 1e-5, Objective::kSolvedCurrent);
   // The second diode starts at Is = 0, where the gradient with respect to its n vanishes.
   const RefineEnd end = Refine(problem, {3.8, 2e-8, 1.2, 0.25, 300, 0, 1.5});
   EXPECT_GT(end.p[5], 0);
@@ -82,7 +83,7 @@ TEST(Refine, LetsADiodeInWhereTheResidualsAskForOne) {
 TEST(SeparableDescent, ComesNextToTheOptimumFromFarAway) {
   for (const Objective objective : kBoth) {
     const RefineProblem problem =
-        ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth, 1e-3, objective);
+        ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kTwoDiodeTruth, 1e-3, objective);
     const std::vector<double> near = SeparableDescent(problem, {1, 1e-5, 1.9, 2, 5, 1e-9, 1.1});
     const RefineEnd end = Refine(problem, near);
     EXPECT_LT(MeanSquare(problem, near) / end.mean_square, 1.001) << ToText(objective);
@@ -91,7 +92,7 @@ TEST(SeparableDescent, ComesNextToTheOptimumFromFarAway) {
 
 TEST(SeparableStarts, AreSortedDistinctAndInsideTheBounds) {
   const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kTripleDiode,
-                                              kDoubleTruth, 1e-3, Objective::kSolvedCurrent);
+                                              kTwoDiodeTruth, 1e-3, Objective::kSolvedCurrent);
   const auto starts = SeparableStarts(problem, 0.3, 5);
   ASSERT_EQ(starts.size(), 5U);
   for (std::size_t k = 0; k < starts.size(); ++k) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <string>
 
 #include "diagnose/synthetic_data.h"
 #include "faults/field_case.h"
 #include "lyrefit/diagnose/fit_effect.h"
-#include "repeats.h"
 
 // Fits of one effect to exact curves from the simulator of modules, whose cells follow other laws
 // than those of the effects and differ among each other. A figure is a misfit in % of Isc.
@@ -94,72 +94,50 @@ Misfits MisfitsOf(const std::string& kind, const char* effect, int modules) {
   return misfits;
 }
 
-TEST(FieldModels, FitEverySubstringPartlyCovered) {
-  SKIP_IF_SANITIZED();
-  const Misfits misfits = MisfitsOf("covered_edge", "covered_edge", 12);
-  EXPECT_GT(misfits.before[6], 2);
-  EXPECT_LT(misfits.Middle(), 0.25);
-  EXPECT_LT(misfits.after[10], 0.6);
+struct FittedKind {
+  const char *kind, *effect;
+  int modules;
+  int at_before;  // place of the misfit of one diode that is above
+  double before;
+  double middle;  // the middle misfit of the effect is below
+  int at_after;   // -1: the largest
+  double after;
+};
+
+void PrintTo(const FittedKind& one, std::ostream* out) { *out << one.kind << " " << one.effect; }
+
+constexpr FittedKind kFittedKinds[] = {
+    {"covered_edge", "covered_edge", 12, 6, 2, 0.25, 10, 0.6},
+    {"open_group", "open_substring", 12, 0, 1, 0.05, -1, 0.1},
+    {"dim_cells", "dim_cells", 16, 8, 4, 0.4, 13, 0.8},
+    {"graded_shunt", "graded_shunt", 15, 7, 0.6, 0.15, -1, 0.4},
+    // Of 24, 48 and 24 cells. Some have a single dim cell, for which a light of all cells is no model.
+    {"unlike_groups", "substrings", 16, 8, 4, 1e9, 6, 0.1},
+    {"unlike_groups", "covered_edge", 16, 8, 4, 0.1, 14, 0.7},
+    // Two chains in parallel are at the same voltage: with a light each they have the curve of one
+    // chain under the mean of both, as far as a curve shows.
+    {"both_halves", "dim_cells", 16, 8, 4, 0.3, -1, 1e9},
+    {"both_halves", "covered_edge", 16, 8, 4, 1e9, 14, 0.5},
+    {"bypass_open", "bypass_open", 16, 8, 2, 0.1, 14, 0.5},
+    {"falling_hysteresis", "capacitance", 12, 6, 0.5, 0.12, 11,
+     0.25},  // 0.3 with times that do not fall
+};
+
+class FieldModels : public testing::TestWithParam<FittedKind> {};
+
+TEST_P(FieldModels, FitTheKind) {
+  const FittedKind& one = GetParam();
+  const Misfits misfits = MisfitsOf(one.kind, one.effect, one.modules);
+  const auto last = static_cast<int>(misfits.after.size()) - 1;
+  ASSERT_GE(last, std::max(one.at_before, one.at_after));
+  EXPECT_GT(misfits.before[one.at_before], one.before);
+  EXPECT_LT(misfits.Middle(), one.middle);
+  EXPECT_LT(misfits.after[one.at_after < 0 ? last : one.at_after], one.after);
 }
 
-TEST(FieldModels, FitSubstringsWithoutCurrent) {
-  const Misfits misfits = MisfitsOf("open_group", "open_substring", 12);
-  EXPECT_GT(misfits.before[0], 1);
-  EXPECT_LT(misfits.Middle(), 0.05);
-  EXPECT_LT(misfits.after.back(), 0.1);
-}
-
-TEST(FieldModels, FitCellsUnderALightEach) {
-  SKIP_IF_SANITIZED();
-  const Misfits misfits = MisfitsOf("dim_cells", "dim_cells", 16);
-  EXPECT_GT(misfits.before[8], 4);
-  EXPECT_LT(misfits.Middle(), 0.4);
-  EXPECT_LT(misfits.after[13], 0.8);
-}
-
-TEST(FieldModels, FitShuntsThatGrowAlongTheString) {
-  SKIP_IF_SANITIZED();
-  const Misfits misfits = MisfitsOf("graded_shunt", "graded_shunt", 15);
-  EXPECT_GT(misfits.before[7], 0.6);
-  EXPECT_LT(misfits.Middle(), 0.15);
-  EXPECT_LT(misfits.after.back(), 0.4);
-}
-
-// Of 24, 48 and 24 cells. Some have a single dim cell, for which a light of all cells is no model.
-TEST(FieldModels, FitSubstringsOfUnlikeSize) {
-  SKIP_IF_SANITIZED();
-  const Misfits whole = MisfitsOf("unlike_groups", "substrings", 16);
-  EXPECT_GT(whole.before[8], 4);
-  EXPECT_LT(whole.after[6], 0.1);
-  const Misfits partly = MisfitsOf("unlike_groups", "covered_edge", 16);
-  EXPECT_LT(partly.Middle(), 0.1);
-  EXPECT_LT(partly.after[14], 0.7);
-}
-
-// Two chains in parallel are at the same voltage: with a light each they have the curve of one chain
-// under the mean of both, as far as a curve shows.
-TEST(FieldModels, FitDimCellsInBothHalvesOfAGroup) {
-  SKIP_IF_SANITIZED();
-  const Misfits misfits = MisfitsOf("both_halves", "dim_cells", 16);
-  EXPECT_GT(misfits.before[8], 4);
-  EXPECT_LT(misfits.Middle(), 0.3);
-  EXPECT_LT(MisfitsOf("both_halves", "covered_edge", 16).after[14], 0.5);
-}
-
-TEST(FieldModels, FitADimCellUnderAnOpenDiode) {
-  SKIP_IF_SANITIZED();
-  const Misfits misfits = MisfitsOf("bypass_open", "bypass_open", 16);
-  EXPECT_GT(misfits.before[8], 2);
-  EXPECT_LT(misfits.Middle(), 0.1);
-  EXPECT_LT(misfits.after[14], 0.5);
-}
-
-TEST(FieldModels, FitHysteresisThatFallsWithTheCurrent) {
-  const Misfits misfits = MisfitsOf("falling_hysteresis", "capacitance", 12);
-  EXPECT_GT(misfits.before[6], 0.5);
-  EXPECT_LT(misfits.Middle(), 0.12);  // 0.3 with times that do not fall
-  EXPECT_LT(misfits.after.back(), 0.25);
-}
+INSTANTIATE_TEST_SUITE_P(Field, FieldModels, testing::ValuesIn(kFittedKinds), [](const auto& one) {
+  return std::string(one.param.kind) + "_as_" + one.param.effect;
+});
 
 }  // namespace
 }  // namespace faults::field

@@ -98,9 +98,9 @@ CampaignKind KindOf(const CampaignChange& change) {
   std::array<double, kMechanisms> of{};
   for (const MechanismFit& fit : change.fits) of[static_cast<int>(fit.mechanism)] = fit.probability;
   const auto at = [&](Mechanism one) { return of[static_cast<int>(one)]; };
-  if (change.fits.front().goodness < kLeastGoodness) return CampaignKind::kSeveral;
-  if (change.fits.front().probability >= kSureOfMechanism)
-    return KindOf(change.fits.front().mechanism);
+  const MechanismFit& first = change.fits.front();
+  if (first.goodness < kLeastGoodness) return CampaignKind::kSeveral;
+  if (first.probability >= kSureOfMechanism) return KindOf(first.mechanism);
   if (at(Mechanism::kSubstrings) + at(Mechanism::kTemperature) >= kSureOfMechanism) {
     return CampaignKind::kVoltage;
   }

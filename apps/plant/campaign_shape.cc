@@ -341,10 +341,10 @@ class MechanismSearch {
                kAlikeCurrents;
       }
     }
-    fit.goodness = ill_.currents.empty()
-                       ? ChiSquaredTail(sum, 4)
-                       : ChiSquaredTail(sum / kOverdispersion,
-                                        3 + (kSparklinePoints - 2) / kAlikeCurrents);
+    fit.goodness =
+        ill_.currents.empty()
+            ? ChiSquaredTail(sum, 4)
+            : ChiSquaredTail(sum / kOverdispersion, 3 + (kSparklinePoints - 2) / kAlikeCurrents);
     double prior = kPerParameter;
     if (mechanism == Mechanism::kTemperature) prior += std::pow(size / kTemperatureSigma, 2);
     if (mechanism == Mechanism::kShunt || mechanism == Mechanism::kMismatch) prior += kPerParameter;

@@ -85,10 +85,10 @@ std::string ToDoIn(const StringVerdict& verdict) {
 }
 
 std::string Shown(const std::string& from) {
-  return from == "curve"  ? "shown by its curve"
-         : from == "plan" ? "by its plan and its neighbours"
+  return from == "curve"      ? "shown by its curve"
+         : from == "plan"     ? "by its plan and its neighbours"
          : from == "campaign" ? "by its change since the last campaign"
-                          : "by its neighbours";
+                              : "by its neighbours";
 }
 
 const ColumnList<StringVerdict>& VerdictColumns() {
@@ -103,7 +103,8 @@ const ColumnList<StringVerdict>& VerdictColumns() {
     Append(
         CauseColumns<StringVerdict>(
             "string_",
-            {"its cause: the id of cause or of plan_cause, or the first of change_candidates; empty: "
+            {"its cause: the id of cause or of plan_cause, or the first of change_candidates; "
+             "empty: "
              "none is named",
              "what it belongs to: device; sweep, instrument or conditions, to be measured again; "
              "plan; or unknown",

@@ -40,8 +40,9 @@ struct EnumTable<ToDo> {
 
 struct StringVerdict {
   ToDo to_do = ToDo::kNothing;
-  std::string zone;     // against the rating; empty: no field test
-  std::string from;     // "curve", "plan", "neighbours" or "campaign": what shows the cause; empty: none
+  std::string zone;  // against the rating; empty: no field test
+  std::string
+      from;  // "curve", "plan", "neighbours" or "campaign": what shows the cause; empty: none
   std::string outlier;  // how it differs from the strings of its combiner
   // What the table says of it. Its id is empty where none has a name; a difference from the plan
   // without a name has a sentence.

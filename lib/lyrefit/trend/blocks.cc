@@ -183,8 +183,8 @@ TrendRow WithLoss(TrendRow row, const TrendBlocks& blocks, int block) {
   }
   if (row.state == TrendRowState::kStepped) {
     // An operating point has no Isc: its light is that of its current.
-    after[kTrendLight] = std::isfinite(row.isc_A) ? std::log(row.isc_A / expected_A)
-                                                  : row.parameters[kTrendLight];
+    after[kTrendLight] =
+        std::isfinite(row.isc_A) ? std::log(row.isc_A / expected_A) : row.parameters[kTrendLight];
   }
   const DeviceState reference = StateOf(device, before, expected_A, row.temperature_C);
   const DeviceState now = StateOf(device, after, expected_A, row.temperature_C);

@@ -31,9 +31,9 @@ struct QuantityKind {
   int followed;  // position among the levels; -1: of the losses
   // Value of a level, or of the sums of a block.
   double (*value)(const TrendBlocks& blocks, double level);
-  bool monitored;  // its changes to the worse are onsets
-  bool changes;    // whether changes are looked for
-  bool operating;  // whether operating points tell it
+  bool monitored;         // its changes to the worse are onsets
+  bool changes;           // whether changes are looked for
+  bool operating;         // whether operating points tell it
   bool operating_onsets;  // whether its onsets in operating points hold; else they are not claimed
 };
 
@@ -51,15 +51,14 @@ double LostVoltage(const TrendBlocks& blocks, double level) {
 }
 
 constexpr QuantityKind kQuantityKinds[] = {
-    {"p_mp", "power, of what the reference lets expect", "%", -1, AsItIs, false, true, true,
-     false},
+    {"p_mp", "power, of what the reference lets expect", "%", -1, AsItIs, false, true, true, false},
     {"light", "light on the cells, per light of the sensor", "%", kTrendLight, LightPercent, false,
      true, true, false},
     {"resistance_series", "series resistance", "ohm", kTrendSeries, AsItIs, true, true, true, true},
     {"recombination", "voltage lost by recombination", "V", kTrendVoltage, LostVoltage, true, true,
      true, false},
-    {"second_diode", "share of the second diode", "%", kTrendSecond, AsPercent, false, false,
-     false, false},
+    {"second_diode", "share of the second diode", "%", kTrendSecond, AsPercent, false, false, false,
+     false},
     {"conductance_shunt", "shunt conductance", "S", kTrendShunt, AsItIs, true, true, false, false},
     {"mismatch", "power lost by mismatch, within substrings", "%", -1, AsItIs, true, true, false,
      false},

@@ -22,8 +22,8 @@ std::string PowerVerdict(const TrendReport& report, double least_irradiance_W_m2
   std::string text = fmt::format(
       "Against its first days, until {}, the device gave {:.1f} % ({:.1f} to {:.1f}) {} energy in "
       "light above {:g} W/m2 than it would have given unchanged",
-      DateText(report.reference_end_s),
-      std::fabs(energy.value), energy.value < 0 ? -energy.high_95 : energy.low_95,
+      DateText(report.reference_end_s), std::fabs(energy.value),
+      energy.value < 0 ? -energy.high_95 : energy.low_95,
       energy.value < 0 ? -energy.low_95 : energy.high_95, energy.value < 0 ? "more" : "less",
       least_irradiance_W_m2);
   const TrendLoss* largest = nullptr;

@@ -138,6 +138,11 @@ std::vector<TrendOnset> OnsetsOfSubstrings(const TrendBlocks& blocks, const Tren
   return onsets;
 }
 
+bool MayEchoSubstrings(const TrendOnset& onset) {
+  return onset.cause.id != "lost_substrings" && onset.quantity != "conductance_shunt" &&
+         onset.cause.id != "potential_induced_degradation";
+}
+
 // What a lost substring changes besides, and an onset of the same cause in another quantity, are no
 // onsets of their own.
 std::vector<TrendOnset> WithoutEchoes(const std::vector<TrendOnset>& onsets) {
@@ -145,7 +150,7 @@ std::vector<TrendOnset> WithoutEchoes(const std::vector<TrendOnset>& onsets) {
   std::vector<TrendOnset> own;
   for (const TrendOnset& onset : onsets) {
     const bool echo = std::any_of(onsets.begin(), onsets.end(), [&](const TrendOnset& other) {
-      return other.cause.id == "lost_substrings" && onset.cause.id != other.cause.id &&
+      return other.cause.id == "lost_substrings" && MayEchoSubstrings(onset) &&
              std::fabs(onset.time_s - other.time_s) < kEcho_s;
     });
     const bool again = std::any_of(own.begin(), own.end(), [&](const TrendOnset& other) {
@@ -186,6 +191,8 @@ std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport&
     if (!quantity.monitored) continue;
     for (const TrendChange& change : quantity.changes) {
       if (!(change.size.value > 0)) continue;  // to the better, or the end of a growth
+      // What grows slowly in operating points may be a shunt.
+      if (change.onset && report.source == TrendSource::kOperatingPoints) continue;
       onsets.push_back({quantity.name, change.time_s, change.earliest_s, change.latest_s,
                         LostNow(report, quantity.name), CauseOf(report, quantity, change)});
     }

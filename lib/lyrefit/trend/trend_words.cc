@@ -85,8 +85,8 @@ std::vector<std::string> NotDecided(const TrendReport& report) {
         "Operating points do not show a shunt: what it takes is counted under light and series "
         "resistance. A sweep in dim light shows it.");
     not_decided.emplace_back(
-        "Operating points do not date a loss of voltage by recombination, by potential-induced "
-        "degradation or by a temperature sensor: they show it, and sweeps tell when and what.");
+        "Operating points do not date what grows slowly, series resistance, recombination or a "
+        "shunt, nor an error of a temperature sensor: sweeps tell when it began and what it is.");
   }
   if (days < 10) {
     not_decided.emplace_back(

@@ -76,7 +76,7 @@ TEST(TrendCommand, WritesEveryOutput) {
   EXPECT_THAT(FileText(folder.Path("t.html")), HasSubstr("substrings without voltage"));
   EXPECT_THAT(FileText(folder.Path("t.svg")), HasSubstr("</svg>"));
   const AppResult brief = RunApp("trend " + kTrendYear + " --brief");
-  EXPECT_THAT(brief.out, StartsWith("year: Since the reference"));
+  EXPECT_THAT(brief.out, StartsWith("year: Against its first days"));
   EXPECT_EQ(std::count(brief.out.begin(), brief.out.end(), '\n'), 1);
 }
 

@@ -29,7 +29,7 @@ struct PriorFactor {
 // How often an effect is in a sweep at a size that matters, in sweeps of the field: probabilities in
 // orders of magnitude. They and their factors order causes, and do not count sweeps: the evidence of
 // a fault above the floors is usually larger by far, so that a factor of three changes few verdicts.
-// 0: not known, it counts like an effect of one's own.
+// Both are stated, with their source, or neither: 0 is not known, and counts like an effect of one's own.
 struct EffectPrior {
   double in_cells = 0;                    // in a sweep of a cell
   double in_modules = 0;                  // ... of a module

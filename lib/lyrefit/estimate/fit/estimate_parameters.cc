@@ -1,6 +1,7 @@
 #include "lyrefit/estimate/fit/estimate_parameters.h"
 
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
@@ -284,6 +285,8 @@ EstimatedParameters JudgeParameters(const EstimateProblem& problem,
 
 EstimatedParameters EstimateParameters(const EstimateProblem& problem,
                                        const EstimateOptions& options, const Observer& observer) {
+  CHECK(problem.parameters_at || !problem.starts.empty())
+      << "a problem without a box to search needs a start";
   const ProgressReporter progress(observer);
   SearchedParameters searched = SearchParameters(problem, options, observer);
   if (searched.summary.termination == SearchTermination::kInterrupted) progress.stop().Request();

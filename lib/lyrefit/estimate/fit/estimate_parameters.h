@@ -51,7 +51,7 @@ struct EstimateProblem {
   int readings = 0;                         // residuals without priors; 0: no criteria
   std::optional<Objective> objective = {};  // of the residuals; none: they are of several kinds
 
-  // The search, and the parameters at a point of its box. Empty: no search.
+  // The search, and the parameters at a point of its box. Empty: no search; then `starts` has one.
   Box box = {};
   std::function<std::vector<double>(const double* x)> parameters_at = {};
 

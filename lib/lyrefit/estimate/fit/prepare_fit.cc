@@ -137,6 +137,7 @@ Expected<void> CheckErrorSpec(const FitOptions& options) {
 }
 
 Expected<void> CheckOptions(const FitOptions& options) {
+  TRY(ValidateOptions(options, kFitOptionTable));
   TRY(ValidateOptions(options.search, kSearchOptionTable));
   TRY(ValidateThreads(options.threads));
   if (!(options.loss_scale > 0)) return Fail("loss-scale must be above 0");

@@ -9,9 +9,7 @@
 
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/base/median.h"
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/batch/addition.h"
-#include "lyrefit/batch/sparkline.h"
 #include "plant/neighbours.h"
 
 namespace lyrefit {
@@ -21,21 +19,11 @@ constexpr int kTested = 4;  // Isc, Voc, FF, Pmax
 constexpr double kTwoSided = 2;
 constexpr double kLeastScatter = 1e-4;  // resolution of figures that are equal in most strings
 constexpr double kLeastCurrentScatter = 0.0016;  // resolution of a sparkline, twice
-constexpr double kMostVocScatter = 0.0075;
-constexpr double kMostDegrees = 1e6;  // where Student's t is normal
+constexpr double kMostDegrees = 1e6;             // where Student's t is normal
 
 using Changes = std::vector<CampaignChange>;
 using Indices = std::vector<std::int32_t>;
 using Ratios = std::array<double, kCampaignChanges>;
-
-// Currents of a sweep in parts of Isc; empty: unknown.
-std::vector<double> CurrentsOf(const CampaignString& string) {
-  std::vector<double> currents = ReadSparkline(string.sparkline);
-  if (currents.empty() || !(currents.front() > 0)) return {};
-  const double isc = currents.front();
-  for (double& current : currents) current /= isc;
-  return currents;
-}
 
 // Logarithms of the ratios of one string in one campaign, and its currents.
 Ratios LogRatiosOf(const CampaignString& string) {
@@ -51,7 +39,7 @@ Ratios LogRatiosOf(const CampaignString& string) {
                    logs[kCVmp] - logs[kCVoc],
                    logs[kCFillFactor],
                    logs[kCPmax] - logs[kCIsc]};
-  const std::vector<double> currents = CurrentsOf(string);
+  const std::vector<double> currents = SweepOf(string).currents;
   for (int k = 0; k < kSparklinePoints; ++k) {
     ratios[kCurrents + k] = currents.empty() ? kUnknown : currents[k];
   }
@@ -163,8 +151,7 @@ void WidenByGroup(const Compared& compared, const Indices& members, Changes* cha
     for (const std::int32_t i : members) {
       float& sigma = (*changes)[i].sigma[q];
       double wider_by = own * compared.weights[i][q];
-      // Strings of one combiner are warm alike to 2.5 K, which is as much of their Voc.
-      if (q == kCVoc) wider_by = std::min(wider_by, kMostVocScatter);
+      if (q == kCVoc) wider_by = std::min(wider_by, kTemperatureSigma);
       const auto wider = static_cast<float>(wider_by);
       if (wider > sigma * (1 + kChance * spread)) sigma = wider;
     }
@@ -372,76 +359,7 @@ void CompareInPlant(const Compared& compared, const Indices& members, Changes* c
   }
 }
 
-// ln of what a figure at these conditions is of that at standard conditions, for a usual module of
-// crystalline silicon: only differences between neighbours are taken of it.
-double UsualLog(const CampaignString& string, int q) {
-  constexpr double kIscPerK = 0.0005, kVocPerK = -0.003, kPmaxPerK = -0.004;
-  constexpr double kVocPerLight = 0.045, kFillPerLight = -0.03;
-  const double light = std::log(string.irradiance_W_m2 / 1000.0);
-  const double warmer = string.temperature_C - 25.0;
-  const double isc = light + kIscPerK * warmer;
-  const double voc = kVocPerLight * light + std::log1p(kVocPerK * warmer);
-  const double fill = kFillPerLight * light + (kPmaxPerK - kVocPerK - kIscPerK) * warmer;
-  switch (q) {
-    case kCVoc:
-    case kCVmp:
-      return voc;
-    case kCFillFactor:
-      return fill;
-    case kCPmax:
-      return isc + voc + fill;
-    default:
-      return isc;
-  }
-}
-
-// How one figure of a string was carried, less what is usual at its conditions; NaN: unknown.
-double CarriedLog(const CampaignString& string, int q) {
-  return std::log(double{string.values[q]} / string.measured[q]) + UsualLog(string, q);
-}
-
 }  // namespace
-
-void CarryInOneWay(std::vector<CampaignString>* strings) {
-  std::map<std::string, int> ways;
-  for (const CampaignString& string : *strings) {
-    if (string.values[kCPmax] > 0) ++ways[string.procedure];
-  }
-  if (ways.size() < 2) return;
-  const auto most = std::max_element(
-      ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  struct Usual {
-    std::vector<double> logs[kCampaignKept], expanded[kCampaignKept];
-  };
-  std::map<std::string, Usual> groups;  // the plant has no name
-  for (const CampaignString& string : *strings) {
-    if (string.procedure != most->first || !std::isfinite(CarriedLog(string, kCPmax))) continue;
-    for (Usual* usual : {&groups[ParentOf(string.id)], &groups[""]}) {
-      for (int q = 0; q < kCampaignKept; ++q) {
-        usual->logs[q].push_back(CarriedLog(string, q));
-        usual->expanded[q].push_back(string.expanded[q] / string.values[q]);
-      }
-    }
-  }
-  for (CampaignString& string : *strings) {
-    if (string.procedure == most->first || !(string.irradiance_W_m2 > 0)) continue;
-    const auto own = groups.find(ParentOf(string.id));
-    const Usual& usual = own != groups.end() ? own->second : groups[""];
-    if (usual.logs[0].empty()) continue;
-    for (int q = 0; q < kCampaignKept; ++q) {
-      if (!(string.values[q] > 0) || !(string.measured[q] > 0)) continue;
-      const double log = Median(usual.logs[q]) - UsualLog(string, q);
-      string.values[q] = static_cast<float>(string.measured[q] * std::exp(log));
-      string.expanded[q] = static_cast<float>(string.values[q] * Median(usual.expanded[q]));
-    }
-  }
-}
-
-SweepFigures SweepOf(const CampaignString& string) {
-  return {std::log(double{string.values[kCIsc]}), std::log(double{string.values[kCVoc]}),
-          double{string.values[kCImp]} / string.values[kCIsc],
-          double{string.values[kCVmp]} / string.values[kCVoc], CurrentsOf(string)};
-}
 
 Campaign CompareCampaigns(const std::vector<CampaignString>& before,
                           const std::vector<CampaignString>& after, double level) {

@@ -42,8 +42,10 @@ namespace lyrefit {
 //
 // Power lost at standard conditions is P (1 - exp(d)), P of the earlier campaign. d is the own change
 // of Pmax, or of Pmax / Isc where Isc is within what is usual: then its change is an error of the
-// light. A series resistance costs in proportion to the light and a shunt to its inverse, so that d
-// is scaled from the light of the sweep to 1000 W/m2. A temperature that was read wrong costs nothing.
+// light. That of a series resistance is the change of FF. It is scaled from the conditions of the
+// sweep to standard conditions: what a resistance takes grows with the current, what a leak takes
+// with the voltage, by a law between two that widen the interval. A temperature that was read wrong
+// costs nothing.
 
 // Figures that are kept of a string: those of kCampaignFigures, and the maximum power point.
 enum CampaignFigure { kCIsc, kCVoc, kCFillFactor, kCPmax, kCImp, kCVmp, kCampaignKept };

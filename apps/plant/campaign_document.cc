@@ -92,7 +92,8 @@ block::Table ActionsTable(const CampaignSummary& summary) {
   std::vector<std::pair<std::string, std::vector<std::string>>> actions;
   for (const StringChange& change : summary.changes) {
     if (change.cause.action.empty()) continue;
-    const std::string what = AnyOf(change.cause.equivalents) + ". " + change.cause.action;
+    const std::string ids = AnyOf(change.cause.equivalents);
+    const std::string what = (ids.empty() ? "" : ids + ". ") + change.cause.action;
     const auto same = std::find_if(actions.begin(), actions.end(),
                                    [&](const auto& one) { return one.first == what; });
     const auto place = static_cast<std::size_t>(same - actions.begin());

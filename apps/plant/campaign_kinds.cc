@@ -12,12 +12,6 @@ namespace {
 
 constexpr double kTestedFigures = 4;  // Isc, Voc, FF, Pmax
 constexpr double kSides = 2;
-// What less light alone does at standard conditions that are reached with a wrong irradiance, per
-// ln(Isc): Voc falls by n k T / q of about 0.9 V of 40 V and less, FF rises by the part of the
-// power that the series resistance takes.
-constexpr double kLessVocPerLight = 0.045;
-constexpr double kFillPerLight = -0.06;
-
 // What no mechanism explains better than this is several at once, or another.
 constexpr double kLeastGoodness = 1e-6;
 
@@ -35,12 +29,12 @@ struct Halves {
   std::array<double, kCampaignRatios> limit{};  // of what is usual
 };
 
-// Whether any figure changed by more than is usual.
+// Whether any figure changed by more than is usual, and than less light explains.
 bool HasChanged(const Halves& of, CampaignChange* change) {
   const auto& own = change->own;
   const bool isc = of.Beyond(kCIsc, own[kCIsc]);
   const double light = isc ? own[kCIsc] : 0;
-  const double voc_left = own[kCVoc] - kLessVocPerLight * light;
+  const double voc_left = own[kCVoc] - kVocPerLight * light;
   const double fill_left = own[kCFillFactor] - kFillPerLight * light;
   const bool voc = of.Beyond(kCVoc, own[kCVoc]) && of.Beyond(kCVoc, voc_left);
   change->adjusted = !isc && !of.Beyond(kCVoc, own[kCVoc]);

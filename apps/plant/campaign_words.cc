@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ constexpr char kNote[] = "Note what was done to the string.";
 constexpr char kMeasureTemperature[] =
     "Repeat the sweep with a temperature sensor behind a module of the string.";
 
+constexpr char kOtherLight[] =
+    "Sweep again at another light: resistance costs more in strong light, shunts in weak.";
+
 constexpr MechanismWords kWords[] = {
     {Mechanism::kLight, "less light", "soiling shading sensor_offset",
      "less current, the rest as before: dirt or shade on all modules alike, or a sensor that "
@@ -37,8 +41,7 @@ constexpr MechanismWords kWords[] = {
      "there was"},
     {Mechanism::kSubstrings, "substrings without voltage", "bypass_short missing_module",
      "the voltage of whole groups of cells is missing, the rest as before: shorted bypass diodes "
-     "or "
-     "a module less",
+     "or a module less",
      "Count the modules of the string, then measure the voltage of each.", "repair",
      "the voltage of whole groups of cells came back"},
     {Mechanism::kTemperature, "temperature", "temp_offset",
@@ -66,8 +69,10 @@ constexpr MechanismWords kWords[] = {
      "current, voltage and fill factor changed together, as with new modules"}};
 
 const MechanismWords& WordsOf(const MechanismFit& fit) {
-  return kWords[static_cast<int>(fit.mechanism)];
+  return *std::find_if(std::begin(kWords), std::end(kWords),
+                       [&](const MechanismWords& one) { return one.mechanism == fit.mechanism; });
 }
+static_assert(std::size(kWords) == kMechanisms, "every mechanism has words");
 
 // Mechanisms that are likely enough to be named. Light does not change the voltage as other modules
 // do, which are in question only where it changed.
@@ -221,11 +226,8 @@ Cause CauseOf(const Campaign& campaign, const std::vector<CampaignString>& befor
                                  poor ? "several causes or one that is not known, the nearest is"
                                       : "the two sweeps do not tell which",
                                  set);
-    cause.separate_by = {kMeasureTemperature,
-                         "Sweep again at another light: resistance costs more in strong light, "
-                         "shunts in weak."};
     const bool voltage = change.kind == CampaignKind::kVoltage;
-    cause.separate_by.erase(cause.separate_by.begin() + (voltage ? 1 : 0));
+    cause.separate_by = {voltage ? kMeasureTemperature : kOtherLight};
     if (!change.gain) cause.action = cause.separate_by.front();
   }
   if (!change.maybe.empty()) cause.equivalents.emplace_back("exchanged");

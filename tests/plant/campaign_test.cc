@@ -350,14 +350,20 @@ TEST(Campaign, AnIdOfSeveralCurvesIsNotCompared) {
             "not compared: this sweep has no figures at standard conditions");
 }
 
-TEST(Campaign, NamesTwoExchangedStrings) {
+// The strings of two places are exchanged. The first has had a module less and more resistance since
+// before the first campaign.
+TwoCampaigns Exchanged(std::size_t ill, std::size_t other) {
   TwoCampaigns two = MakeCampaigns(10, 20, 9);
-  // One of them has had a module less and more resistance since before the first campaign.
-  const Factors ill = {1, 57.0 / kDiodes, 1, 0.96};
-  Apply(ill, &two.before[25]);
-  Apply(ill, &two.Later(two.before[25].id));
-  std::swap(two.after[25].id, two.after[33].id);
-  std::swap(two.after[25], two.after[33]);
+  const Factors factors = {1, 57.0 / kDiodes, 1, 0.96};
+  Apply(factors, &two.before[ill]);
+  Apply(factors, &two.Later(two.before[ill].id));
+  std::swap(two.after[ill].id, two.after[other].id);
+  std::swap(two.after[ill], two.after[other]);
+  return two;
+}
+
+TEST(Campaign, NamesTwoExchangedStrings) {
+  const TwoCampaigns two = Exchanged(25, 33);
   const CampaignSummary summary = SummaryOf(two);
   ASSERT_EQ(summary.exchanged.size(), 1u);
   EXPECT_EQ(summary.exchanged[0], std::pair(two.before[25].id, two.before[33].id));
@@ -365,13 +371,7 @@ TEST(Campaign, NamesTwoExchangedStrings) {
 }
 
 TEST(Campaign, CablesAreNotExchangedBetweenCombiners) {
-  TwoCampaigns two = MakeCampaigns(10, 20, 9);
-  const Factors ill = {1, 57.0 / kDiodes, 1, 0.96};
-  Apply(ill, &two.before[25]);
-  Apply(ill, &two.Later(two.before[25].id));
-  std::swap(two.after[25].id, two.after[130].id);
-  std::swap(two.after[25], two.after[130]);
-  EXPECT_TRUE(SummaryOf(two).exchanged.empty());
+  EXPECT_TRUE(SummaryOf(Exchanged(25, 130)).exchanged.empty());
 }
 
 TEST(Campaign, DoesNotDecideBetweenTwoPartners) {

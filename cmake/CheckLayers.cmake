@@ -1,7 +1,8 @@
 # Test of the module order. A module includes only modules that it links, directly or through others (lib/modules.cmake). The
 # command includes only installed headers, and these include only each other; apps/plant, which the command has of its own,
 # is like a module on top of batch, and shows the command its public headers. No two headers define types of one name,
-# because a linker would then keep one destructor for both.
+# because a linker would then keep one destructor for both. A module names the libraries by others whose headers it includes
+# (WITH): this machine may find them unasked where another does not.
 #   cmake -DROOT=<folder with lib/ and apps/> -P CheckLayers.cmake
 # Lists every violation and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
@@ -25,7 +26,11 @@ function(lyrefit_module name)
   set(FOLDERS ${FOLDERS} PARENT_SCOPE)
   set(FOLDER_OF_${name} ${M_FOLDER} PARENT_SCOPE)
   set(ALLOWED_${M_FOLDER} ${allowed} PARENT_SCOPE)
+  set(WITH_${M_FOLDER} ${M_WITH} PARENT_SCOPE)
 endfunction()
+# Headers of the libraries by others, and their targets.
+set(HEADERS "^boost/;^Eigen/;^fmt/;^glog/;^nlohmann/;^ceres/;^csv[.]h$;^zlib[.]h$")
+set(TARGETS Boost::boost Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json Ceres::ceres LibCsv::csv ZLIB::ZLIB)
 include("${ROOT}/lib/modules.cmake")
 # A folder of FOLDERS, or the module: that of "study/report/plots.h" is study.
 set(IN_FOLDER "^lyrefit/(estimate/[^/]+|[^/]+)/")
@@ -110,6 +115,16 @@ function(check_public_include header)
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
+# Checks an include of a library by others in lib/.
+function(check_library module header)
+  foreach(pattern target IN ZIP_LISTS HEADERS TARGETS)
+    if(header MATCHES "${pattern}" AND NOT target IN_LIST WITH_${module})
+      complain("includes <${header}>, but module ${module} has no ${target} after WITH in lib/modules.cmake")
+    endif()
+  endforeach()
+  set(BROKEN ${BROKEN} PARENT_SCOPE)
+endfunction()
+
 function(check_file module)
   file(STRINGS "${ROOT}/${FILE}" lines REGEX "^[ \t]*#[ \t]*include")
   foreach(line IN LISTS lines)
@@ -139,6 +154,8 @@ function(check_file module)
     endif()
     if(module IN_LIST FOLDERS AND (mark STREQUAL "\"" OR header MATCHES "^lyrefit/"))
       check_own_include(${module} "${header}")
+    elseif(module IN_LIST FOLDERS)
+      check_library(${module} "${header}")
     endif()
   endforeach()
   set(BROKEN ${BROKEN} PARENT_SCOPE)

@@ -11,7 +11,7 @@ lyrefit_module(curve LINK base WITH Eigen3::Eigen fmt::fmt glog::glog)
 lyrefit_module(model LINK curve WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog ARITHMETIC)
 lyrefit_module(search LINK base WITH glog::glog ARITHMETIC)
 lyrefit_module(refine FOLDER estimate/refine LINK model WITH Ceres::ceres Eigen3::Eigen fmt::fmt glog::glog ARITHMETIC)
-lyrefit_module(fit FOLDER estimate/fit LINK refine search WITH Eigen3::Eigen fmt::fmt)
+lyrefit_module(fit FOLDER estimate/fit LINK refine search WITH Eigen3::Eigen fmt::fmt glog::glog)
 
 # Files to curves; settings of a fit from files.
 lyrefit_module(read LINK model WITH fmt::fmt glog::glog LibCsv::csv nlohmann_json::nlohmann_json)
@@ -25,7 +25,7 @@ lyrefit_module(report LINK fit read WITH Eigen3::Eigen fmt::fmt nlohmann_json::n
 lyrefit_module(effects LINK fit WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog ARITHMETIC)
 lyrefit_module(cite LINK effects report WITH fmt::fmt nlohmann_json::nlohmann_json TEXT)
 lyrefit_module(simulate LINK effects settings WITH fmt::fmt nlohmann_json::nlohmann_json)
-lyrefit_module(certify LINK report WITH Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json)
+lyrefit_module(certify LINK report WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json)
 lyrefit_module(family LINK report WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json)
 lyrefit_module(devices LINK family WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json)
 lyrefit_module(diagnose LINK effects report WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json)

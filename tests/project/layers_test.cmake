@@ -56,6 +56,8 @@ expect(lib/lyrefit/estimate/refine/a.cc "#include <ceres/jet.h>" "only estimate/
 expect(apps/lyrefit/main.cc "#include <ceres/ceres.h>" "only estimate/refine/solve.cc includes Ceres")
 expect(lib/lyrefit/base/a.h "#include <iostream>" "the library prints nothing")
 expect(lib/lyrefit/report/a.cc "#include <CLI/CLI.hpp>" "without the app's dependencies")
+expect(lib/lyrefit/search/a.cc "#include <Eigen/Core>" "module search has no Eigen3::Eigen after WITH")
+expect(lib/lyrefit/search/a.cc "#include <glog/logging.h>" "")
 expect(lib/lyrefit/attic/a.cc "#include <cmath>" "is no module of the library")
 
 expect(lib/lyrefit/estimate/fit/a.h "struct End {\n};\nnamespace block {\nstruct End {\n};\n}  // namespace block\nstruct Start;\nstruct Start {" "")

@@ -112,6 +112,11 @@ struct MadeYear {
   double light_error = 2e-3;
   double temperature_error_K = 0.15;
   std::uint64_t seed = 1;
+  double dull_sensor = 0;  // what a sensor shows too much under a sky without any sun
+  // Light of a day over that of a clear one.
+  std::function<double(int day, RandomStream* random)> clearness = [](int, RandomStream* random) {
+    return 0.55 + 0.45 * random->Uniform();
+  };
   std::function<MadeChange(int day)> change = [](int) { return MadeChange(); };
 };
 
@@ -141,13 +146,14 @@ inline std::vector<TimedSweep> MakeSweeps(const TrendDevice& device, const MadeY
   RandomStream random(year.seed, 36);
   std::vector<TimedSweep> sweeps;
   for (int day = 0; day < year.days; ++day) {
-    const double sky = 0.55 + 0.45 * random.Uniform();
+    const double sky = year.clearness(day, &random);
     const MadeChange now = year.change(day);
     for (int k = 0; k < year.per_day; ++k) {
       const double hour = 9 + 7.0 * k / std::max(year.per_day - 1, 1);
       const double light = sky * std::sin(3.14159 * (hour - 5) / 14);
       sweeps.push_back(MadeSweepOf(device, year, now, light,
                                    kMadeStart_s + day * kDay_s + 3600 * hour, &random));
+      sweeps.back().curve.conditions.irradiance_W_m2 *= 1 + year.dull_sensor * (1 - sky);
     }
   }
   return sweeps;

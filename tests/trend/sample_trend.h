@@ -24,6 +24,7 @@ inline TrendQuantity SampleQuantity(const std::string& name, const std::string& 
   const double apart = 0.2 * std::fabs(rate), percent = 100 / reference;
   quantity.rate_per_year = {rate, rate - apart, rate + apart};
   quantity.rate_percent = {percent * rate, percent * (rate - apart), percent * (rate + apart)};
+  quantity.change = {0.25 * rate, 0.25 * (rate - apart), 0.25 * (rate + apart)};
   quantity.day_scatter = 0.01 * reference;
   quantity.shared_scatter = 0.02 * reference;
   quantity.half_life_days = 8;

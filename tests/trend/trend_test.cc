@@ -17,6 +17,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TrendReport ReportOf(const MadeYear& year, const TrendOptions& options = {}) {
   const TrendDevice device = MadeDevice();
@@ -150,9 +151,9 @@ TEST(FindTrend, FindsTheRateOfAGrowingSeriesResistance) {
   };
   const TrendReport report = ReportOf(year);
   const TrendQuantity& series = QuantityNamed(report, "resistance_series");
-  EXPECT_NEAR(series.rate_per_year.value, 0.18, 0.02);
-  EXPECT_TRUE(Holds(series.rate_per_year, 0.18));
-  EXPECT_NEAR(series.rate_percent.value, 100 * 0.18 / series.reference, 100 * 0.02 / 0.3);
+  const double years = year.days / 365.25;
+  EXPECT_NEAR(series.change.value, 0.18 * years, 0.02 * years);
+  EXPECT_TRUE(Holds(series.change, 0.18 * years));
   EXPECT_GT(EnergyLost(report, "resistance_series").low_95, 0);
   EXPECT_TRUE(Holds(EnergyLost(report, "shunt"), 0));
 }
@@ -168,7 +169,7 @@ TEST(FindTrend, FindsLightThatFalls) {
   const Ranged light = EnergyLost(report, "light");
   EXPECT_GT(light.low_95, 0);
   EXPECT_NEAR(light.value, EnergyLost(report, "total").value, 0.3);
-  EXPECT_LT(QuantityNamed(report, "light").rate_per_year.high_95, 0);
+  EXPECT_LT(QuantityNamed(report, "light").change.high_95, 0);
   EXPECT_THAT(report.verdict, HasSubstr("by light"));
   EXPECT_TRUE(std::any_of(
       report.not_decided.begin(), report.not_decided.end(),
@@ -209,6 +210,158 @@ TEST(FindTrend, FindsASubstringThatIsLost) {
   EXPECT_NEAR(DayOf(report.onsets[0].earliest_s), 49.5, 1);
   EXPECT_NEAR(report.onsets[0].lost_percent, 100 / 3.0, 1.5);
   EXPECT_NEAR(EnergyLost(report, "mismatch").value, EnergyLost(report, "total").value, 0.5);
+}
+
+TEST(FindTrend, BelowAYearHasAChangeAndNoRate) {
+  const TrendReport report = ReportOf(Days(120));
+  for (const TrendQuantity& quantity : report.quantities) {
+    EXPECT_TRUE(std::isnan(quantity.rate_per_year.value)) << quantity.name;
+    EXPECT_TRUE(std::isnan(quantity.rate_percent.value)) << quantity.name;
+    EXPECT_TRUE(std::isfinite(quantity.change.value)) << quantity.name;
+  }
+  EXPECT_THAT(TrendText(report), AllOf(HasSubstr("has no rates"), Not(HasSubstr("a year  "))));
+}
+
+TEST(FindTrend, ClaimsNoOnsetOfWhatTakesNoPower) {
+  MadeYear year = Days(90);
+  year.change = [](int day) {
+    MadeChange now;
+    now.series = day >= 55 ? 1.03 : 1;  // 0.009 ohm, 0.2 % of the power
+    return now;
+  };
+  EXPECT_TRUE(ReportOf(year).onsets.empty());
+  TrendOptions all;
+  all.least_onset_percent = 0;
+  const TrendReport report = ReportOf(year, all);
+  ASSERT_EQ(report.onsets.size(), 1U);
+  EXPECT_EQ(report.onsets[0].cause.id, "series_resistance_step");
+}
+
+// A sensor that shows more light than the device gets the duller the sky is, from one long dull
+// spell to the next.
+MadeYear UnderDullSkies(int days) {
+  MadeYear year = Days(days);
+  year.clearness = [](int day, RandomStream* random) {
+    const bool dull = day % 40 < 25;
+    return dull ? 0.3 + 0.3 * random->Uniform() : 0.95 + 0.05 * random->Uniform();
+  };
+  year.dull_sensor = 0.2;
+  return year;
+}
+
+TEST(FindTrend, CallsADullSkyNoLoss) {
+  for (const std::uint64_t seed : {11, 12}) {
+    MadeYear year = UnderDullSkies(150);
+    year.seed = seed;
+    const TrendReport report = ReportOf(year);
+    EXPECT_NEAR(EnergyLost(report, "light").value, 0, 1);
+    EXPECT_TRUE(Holds(EnergyLost(report, "total"), 0));
+    EXPECT_GT(report.dull_sky_percent, 2);
+    EXPECT_THAT(report.verdict, HasSubstr("under dull skies"));
+  }
+}
+
+TEST(FindTrend, FindsDirtUnderDullSkies) {
+  MadeYear year = UnderDullSkies(150);
+  year.change = [](int day) {
+    MadeChange now;
+    now.light = day < 75 ? 1 : 0.92;
+    return now;
+  };
+  const TrendReport report = ReportOf(year);
+  EXPECT_NEAR(EnergyLost(report, "light").value, 4, 1.2);
+  EXPECT_GT(EnergyLost(report, "light").low_95, 0);
+}
+
+TEST(FindTrend, NamesTheDaysOnWhichTheDeviceWasCovered) {
+  MadeYear year = Days(90);
+  year.change = [](int day) {
+    MadeChange now;
+    now.light = day == 50 || day == 51 || day == 60 ? 0.6 : 1;
+    return now;
+  };
+  const TrendReport report = ReportOf(year);
+  ASSERT_EQ(report.covered.size(), 1U);
+  EXPECT_FALSE(report.covered[0].frost);
+  ASSERT_EQ(report.covered[0].days_s.size(), 3U);
+  EXPECT_NEAR(DayOf(report.covered[0].days_s[0]), 50.5, 0.5);
+  EXPECT_NEAR(report.covered[0].lost_percent, 1.3, 0.6);
+  EXPECT_THAT(report.verdict, HasSubstr("2025-05-01 to 2025-05-02, 2025-05-11"));
+  EXPECT_TRUE(report.onsets.empty());
+}
+
+TEST(FindTrend, EndsWhereAnotherDeviceBegins) {
+  MadeYear year = Days(120);
+  year.change = [](int day) {
+    MadeChange now;
+    if (day < 70) return now;
+    now.light = 1.05;
+    now.series = 0.8;
+    now.recombination = 0.4;
+    now.shunt = 0.5;
+    return now;
+  };
+  const TrendReport report = ReportOf(year);
+  EXPECT_NEAR(DayOf(report.last_s), 69.7, 1.1);
+  EXPECT_TRUE(report.onsets.empty());
+  EXPECT_TRUE(Holds(EnergyLost(report, "total"), 0));
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_THAT(report.warnings.back(),
+              AllOf(HasSubstr("of another device"), HasSubstr("2025-05-2")));
+  EXPECT_THAT(report.verdict, HasSubstr("of another device"));
+}
+
+// What readings of units and columns that were mistaken look like.
+struct Mistake {
+  const char* name;
+  void (*make)(IvCurve* curve);
+  const char* said;
+};
+
+TEST(FindTrend, LeavesOutWhatNoDeviceGivesAndSaysWhen) {
+  const Mistake mistakes[] = {
+      {"mA",
+       [](IvCurve* curve) {
+         for (double& one : curve->current_A) one *= 1000;
+       },
+       "mA"},
+      {"kW/m2", [](IvCurve* curve) { curve->conditions.irradiance_W_m2 /= 1000; }, "kW/m2"},
+      {"columns", [](IvCurve* curve) { std::swap(curve->current_A, curve->voltage_V); },
+       "exchanged"},
+      {"cells", [](IvCurve* curve) { curve->conditions.cells_in_series = 72; },
+       "72 cells in series are stated, the device has 60"},
+      {"light", [](IvCurve* curve) { curve->conditions.irradiance_W_m2 = 1e300; },
+       "an irradiance of 1e+300 W/m2"}};
+  const TrendDevice device = MadeDevice();
+  for (const Mistake& mistake : mistakes) {
+    std::vector<TimedSweep> sweeps = MakeSweeps(device, Days(90));
+    for (TimedSweep& sweep : sweeps) {
+      const double day = DayOf(sweep.time_s);
+      if (day >= 50 && day < 60) mistake.make(&sweep.curve);
+    }
+    const auto report = FindTrend(ReducedBy(device, sweeps));
+    ASSERT_TRUE(report) << mistake.name << ": " << MessageOf(report);
+    EXPECT_EQ(report->states[static_cast<int>(TrendRowState::kDoubtful)], 60) << mistake.name;
+    ASSERT_EQ(report->reasons.size(), 1U) << mistake.name;
+    EXPECT_THAT(report->reasons[0].reason, HasSubstr(mistake.said));
+    EXPECT_NEAR(DayOf(report->reasons[0].first_s), 50.375, 1e-6);
+    EXPECT_TRUE(report->onsets.empty()) << mistake.name;
+    EXPECT_TRUE(Holds(EnergyLost(*report, "total"), 0)) << mistake.name;
+    EXPECT_THAT(report->verdict, HasSubstr("60 measurements that no device gives are left out"));
+  }
+}
+
+TEST(FindTrend, CountsAMeasurementThatAFileRepeatsOnce) {
+  const TrendDevice device = MadeDevice();
+  TrendSeries series = ReducedBy(device, MakeSweeps(device, Days(45)));
+  const auto once = FindTrend(series);
+  for (int k = 0; k < 60; ++k) series.rows.push_back(series.rows[static_cast<std::size_t>(k)]);
+  const auto twice = FindTrend(series);
+  ASSERT_TRUE(once);
+  ASSERT_TRUE(twice);
+  EXPECT_EQ(twice->losses.back().energy_percent.value, once->losses.back().energy_percent.value);
+  ASSERT_EQ(twice->reasons.size(), 1U);
+  EXPECT_EQ(twice->reasons[0].rows, 60);
 }
 
 TEST(FindTrend, SameBitsOnAnyNumberOfThreads) {

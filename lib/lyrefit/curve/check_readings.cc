@@ -119,12 +119,13 @@ void LookAtLight(const Examined& look, Findings* out) {
   const double largest_A = kLargestString_A * curve.conditions.strings_in_parallel * stated / 1000;
   const double isc = look.key.short_circuit_current_A;
   if (!(isc > kOffset * look.largest_A && isc > largest_A)) return;
+  constexpr double kSun = 1.6;  // in kW/m2
   out->push_back(
       {"light",
        fmt::format("{:g} W/m2 are stated, but the device delivers {:.4g} A at 0 V, which "
-                   "it cannot without light: which of the two is right? state the light "
+                   "it cannot without light: which of the two is right{}? state the light "
                    "with --irradiance-Wm2",
-                   stated, isc),
+                   stated, isc, stated > 0 && stated < kSun ? ", or is it kW/m2" : ""),
        false,
        {}});
 }

@@ -13,7 +13,7 @@ extern const char* const kTemperatureAssumed;
 extern const char* const kIrradianceAssumed;
 
 // Largest magnitude of a negative reading that a correct irradiance sensor may show in the dark.
-constexpr double kLargestDarkOffset_W_m2 = 20;
+constexpr double kLargestDarkOffset_W_m2 = 100;
 
 // Takes irradiances below zero, which sensors show at night, as 0, and says how many they were.
 void TakeNightAsDark(std::vector<double>* irradiance_W_m2, std::vector<Assumption>* assumptions);

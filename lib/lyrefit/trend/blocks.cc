@@ -8,6 +8,9 @@
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/curve/date_time.h"
+#include "lyrefit/model/translation.h"
+#include "lyrefit/trend/clearness.h"
+#include "lyrefit/trend/day_series.h"
 #include "lyrefit/trend/loss_split.h"
 
 namespace lyrefit {
@@ -18,6 +21,18 @@ constexpr double kShortBlocks = 40;
 constexpr double kSteppedTimes = 4;      // misfit of a stepped sweep over the median
 constexpr double kSteppedLeast = 0.004;  // and of Isc
 constexpr double kCovered = 0.85;        // light of a covered device, of its 90 % quantile
+
+// Days of weather to whose mean a sky is compared: a dull one may last a day, dirt changes slowly.
+int SpellOf(const TrendRow& row) {
+  constexpr double kSpell_s = 7 * kDay_s;
+  return static_cast<int>(std::floor(row.time_s / kSpell_s));
+}
+
+// Features that explain what is followed.
+Features FeaturesOf(const TrendBlocks& blocks, const TrendRow& row, int what) {
+  return what == kTrendLight ? SkyFeaturesAt(row.temperature_C, row.clearness, row.height)
+                             : FeaturesAt(blocks.LightOn(row), row.temperature_C);
+}
 
 double SpanOf(const std::vector<TrendRow>& rows) {
   return rows.empty() ? 0 : rows.back().time_s - rows.front().time_s;
@@ -44,18 +59,33 @@ void MarkStepped(std::vector<TrendRow>* rows) {
   }
 }
 
-// Marks sweeps of a device under snow or in shade: far less light than it usually has.
+// Marks sweeps of a device under snow or in shade: far less light than it usually has under such a
+// sky. `rows`: by time.
 void MarkCovered(std::vector<TrendRow>* rows) {
+  // Snow comes in the cold: what it takes must not seem to be of the temperature.
+  const auto sky_of = [](const TrendRow& row) {
+    return SkyFeaturesAt(kReferenceTemperature_C, row.clearness, row.height);
+  };
+  std::vector<ConditionedValue> used;
+  for (const TrendRow& row : *rows) {
+    if (row.state != TrendRowState::kUsed) continue;
+    used.push_back({SpellOf(row), sky_of(row), row.parameters[kTrendLight]});
+  }
+  if (used.empty()) return;
+  const Features sky = FitWithinBlocks(used);
+  const auto clear = [&](const TrendRow& row) {
+    return row.parameters[kTrendLight] - Departure(sky, sky_of(row));
+  };
   std::vector<double> lights;
   for (const TrendRow& row : *rows) {
-    if (row.state == TrendRowState::kUsed) lights.push_back(row.parameters[kTrendLight]);
+    if (row.state == TrendRowState::kUsed) lights.push_back(clear(row));
   }
-  if (lights.empty()) return;
   std::sort(lights.begin(), lights.end());
   const double least = Quantile(lights, 0.9) + std::log(kCovered);
   for (TrendRow& row : *rows) {
-    const bool covered = row.parameters[kTrendLight] < least;
-    if (row.state == TrendRowState::kUsed && covered) row.state = TrendRowState::kStepped;
+    if (!CountsInBlocks(row) || !(clear(row) < least)) continue;
+    row.state = TrendRowState::kStepped;
+    row.covered = true;
   }
 }
 
@@ -97,12 +127,16 @@ TrendBlocks CutBlocks(const TrendDevice& device, const std::vector<TrendRow>& ro
     blocks.rows.push_back(row);
   }
   for (std::size_t b = 0; b < blocks.size(); ++b) blocks.time_s[b] /= blocks.used[b];
-  blocks.mean.resize(blocks.size());
+  for (std::vector<Features>& of : blocks.mean) of.resize(blocks.size());
   for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
     const TrendRow& row = blocks.rows[i];
-    const Features own = FeaturesAt(blocks.LightOn(row), row.temperature_C);
     const int b = blocks.block[i];
-    for (int f = 0; f < kConditionFeatures; ++f) blocks.mean[b][f] += own[f] / blocks.used[b];
+    for (int what = 0; what < kFollowed; ++what) {
+      const Features own = FeaturesOf(blocks, row, what);
+      for (int f = 0; f < kConditionFeatures; ++f) {
+        blocks.mean[what][b][f] += own[f] / blocks.used[b];
+      }
+    }
   }
   return blocks;
 }
@@ -129,14 +163,17 @@ struct Levels {
 
 Levels FindLevels(const TrendBlocks& blocks, int what) {
   Levels found;
-  std::vector<ConditionedValue> values;
+  const bool spells = what == kTrendLight && blocks.length_s == kDay_s;
+  std::vector<ConditionedValue> values, groups;
   for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
     const TrendRow& row = blocks.rows[i];
     const double value = Followed(blocks, row, what);
     if (!std::isfinite(value)) continue;
-    values.push_back({blocks.block[i], FeaturesAt(blocks.LightOn(row), row.temperature_C), value});
+    values.push_back({blocks.block[i], FeaturesOf(blocks, row, what), value});
+    groups.push_back(values.back());
+    if (spells) groups.back().block = SpellOf(row);
   }
-  found.departures = FitWithinBlocks(values);
+  found.departures = FitWithinBlocks(groups);
   found.level.assign(blocks.size(), kUnknown);
   std::vector<ConditionedValue> own;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -172,10 +209,9 @@ double LevelAround(const TrendBlocks& blocks, int what, int b) {
 TrendRow WithLoss(TrendRow row, const TrendBlocks& blocks, int block) {
   const TrendDevice& device = *blocks.device;
   const double expected_A = device.Photocurrent(row.irradiance_W_m2, row.temperature_C);
-  const Features features = FeaturesAt(blocks.LightOn(row), row.temperature_C);
   std::array<double, kTrendParameters> before{}, after = row.parameters;
   for (int i = 0; i < kTrendParameters; ++i) {
-    const double departure = Departure(blocks.departures[i], features);
+    const double departure = Departure(blocks.departures[i], FeaturesOf(blocks, row, i));
     before[i] = blocks.reference[i] + departure;
     if (row.state == TrendRowState::kStepped && i != kTrendLight) {
       after[i] = LevelAround(blocks, i, block) + departure;
@@ -189,7 +225,8 @@ TrendRow WithLoss(TrendRow row, const TrendBlocks& blocks, int block) {
   const DeviceState reference = StateOf(device, before, expected_A, row.temperature_C);
   const DeviceState now = StateOf(device, after, expected_A, row.temperature_C);
   const double scale = std::exp(
-      -(blocks.reference[kModelExcess] + Departure(blocks.departures[kModelExcess], features)));
+      -(blocks.reference[kModelExcess] +
+        Departure(blocks.departures[kModelExcess], FeaturesOf(blocks, row, kModelExcess))));
   row.expected_W = scale * MaximumPowerPoint(device, reference, row.temperature_C).power_W();
   row.parts_W = SplitLoss(device, reference, now, row.temperature_C);
   double sum = 0;
@@ -218,12 +255,15 @@ TrendBlocks MakeBlocks(const TrendDevice& device, std::vector<TrendRow> rows,
   std::stable_sort(rows.begin(), rows.end(), [](const TrendRow& one, const TrendRow& other) {
     return one.time_s < other.time_s;
   });
+  FindSky(&rows);
   MarkDim(options.least_irradiance_W_m2, &rows);
   MarkStepped(&rows);
   MarkCovered(&rows);
   TrendBlocks blocks = CutBlocks(device, rows);
   if (const auto end_s = EndOfReference(blocks.rows, options.reference_days)) {
     blocks.reference_end_s = *end_s;
+    blocks.reference_capped = blocks.rows.back().time_s - blocks.rows.front().time_s <
+                              3 * options.reference_days * kDay_s;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       blocks.reference_blocks += blocks.IsReference(b) ? 1 : 0;
     }
@@ -243,6 +283,57 @@ TrendBlocks WithLosses(TrendBlocks blocks, int threads) {
     row = WithLoss(std::move(row), blocks, blocks.block[static_cast<std::size_t>(i)]);
   });
   return blocks;
+}
+
+std::vector<CoveredDays> FindCoveredDays(const TrendBlocks& blocks) {
+  constexpr double kMost = 0.5;  // of the rows of a day
+  constexpr double kFrost_C = 5;
+  if (blocks.length_s != kDay_s) return {};
+  std::vector<int> covered(blocks.size(), 0);
+  std::vector<double> coldest(blocks.size(), kInfinity);
+  for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
+    const TrendRow& row = blocks.rows[i];
+    const int b = blocks.block[i];
+    covered[b] += row.covered ? 1 : 0;
+    coldest[b] = std::min(coldest[b], row.temperature_C);
+  }
+  CoveredDays cold{true, {}, 0}, warm{false, {}, 0};
+  const std::vector<BlockSums> sums = SumsOf(blocks);
+  double expected_W = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    expected_W += sums[b].expected_W;
+    if (covered[b] < std::max(kMost * blocks.used[b], 2.0)) continue;
+    CoveredDays& of = coldest[b] < kFrost_C ? cold : warm;
+    of.days_s.push_back(blocks.time_s[b]);
+    of.lost_percent += TotalPercent(sums[b]) * sums[b].expected_W;  // of the record below
+  }
+  std::vector<CoveredDays> found;
+  for (CoveredDays* const one : {&cold, &warm}) {
+    if (one->days_s.empty()) continue;
+    one->lost_percent /= expected_W;
+    found.push_back(std::move(*one));
+  }
+  return found;
+}
+
+double DullSkyPercent(const TrendBlocks& blocks, const std::vector<double>& weights) {
+  constexpr int kDullness = 1;  // position among SkyFeaturesAt
+  double missed = 0, expected = 0, first_missed = 0, first_expected = 0;
+  for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
+    const TrendRow& row = blocks.rows[i];
+    const int b = blocks.block[i];
+    const double departure = blocks.departures[kTrendLight][kDullness] * (1 - row.clearness);
+    const double missed_W = row.expected_W * std::expm1(-departure);
+    const double weight = weights.empty() || weights[b] > 0 ? 1 : 0;
+    missed += weight * missed_W;
+    expected += weight * (row.expected_W + missed_W);
+    if (!blocks.IsReference(b)) continue;
+    first_missed += missed_W;
+    first_expected += row.expected_W + missed_W;
+  }
+  if (!(expected > 0)) return 0;
+  const double own = 100 * missed / expected;
+  return weights.empty() || !(first_expected > 0) ? own : own - 100 * first_missed / first_expected;
 }
 
 }  // namespace lyrefit

@@ -31,11 +31,13 @@ struct TrendBlocks {
   std::vector<int> block;                              // of each row, ascending from 0
   std::vector<double> time_s;                          // mean of the rows of each block
   std::vector<int> used;                               // rows of each block that count
-  std::vector<Features> mean;                          // features of the rows of each block
-  double length_s = 0;                                 // of a block
-  double reference_end_s = 0;                          // end of the reference blocks
-  int reference_blocks = 0;                            // number of blocks before it
-  std::array<Features, kFollowed> departures{};        // from the law
+  // Features of the rows of each block, of what is followed.
+  std::array<std::vector<Features>, kFollowed> mean;
+  double length_s = 0;                           // of a block
+  double reference_end_s = 0;                    // end of the reference blocks
+  bool reference_capped = false;                 // they are a third of the series
+  int reference_blocks = 0;                      // number of blocks before it
+  std::array<Features, kFollowed> departures{};  // from the law
   // Means at standard conditions; NaN: a block without a usable row.
   std::array<std::vector<double>, kFollowed> level;
   std::array<double, kFollowed> reference{};  // mean over the reference blocks
@@ -53,5 +55,13 @@ TrendBlocks MakeBlocks(const TrendDevice& device, std::vector<TrendRow> rows,
 
 // The blocks with the expected power and the parts of the loss of every row that counts.
 TrendBlocks WithLosses(TrendBlocks blocks, int threads);
+
+// Days on which most rows were covered, those in the cold first; none of a series that is not cut
+// into days. Needs the losses.
+std::vector<CoveredDays> FindCoveredDays(const TrendBlocks& blocks);
+
+// Light under dull skies that the sensor shows and the device does not get, in % of the expected
+// energy. `weights`: of the blocks; less that of the reference. Empty: of all rows. Needs the losses.
+double DullSkyPercent(const TrendBlocks& blocks, const std::vector<double>& weights = {});
 
 }  // namespace lyrefit

@@ -78,13 +78,13 @@ Eigen::MatrixXd DesignOf(const TimeSeries& series, bool* seasonal) {
   return design;
 }
 
-Eigen::MatrixXd WithConditions(const TrendBlocks& blocks, const BlockSeries& own,
-                               const Eigen::MatrixXd& design) {
+Eigen::MatrixXd WithConditions(const std::vector<Features>& conditions, const TrendBlocks& blocks,
+                               const BlockSeries& own, const Eigen::MatrixXd& design) {
   Eigen::RowVectorXd reference = Eigen::RowVectorXd::Zero(kBetweenDays);
   Eigen::MatrixXd wider(design.rows(), design.cols() + kBetweenDays);
   double count = 0;
   for (std::size_t k = 0; k < own.of.size(); ++k) {
-    const Features& mean = blocks.mean[own.of[k]];
+    const Features& mean = conditions[own.of[k]];
     const auto i = static_cast<Eigen::Index>(k);
     for (int f = 0; f < kBetweenDays; ++f) wider(i, design.cols() + f) = mean[f];
     if (!blocks.IsReference(own.of[k])) continue;
@@ -106,21 +106,29 @@ Ranged Scaled(const Ranged& one, double by) {
   return out;
 }
 
-double PowerAt(const TrendBlocks& blocks, double lost_V) {
+double PowerAt(const TrendBlocks& blocks, TrendParameter what, double change) {
   std::array<double, kTrendParameters> parameters{};
   std::copy_n(blocks.reference.begin(), parameters.size(), parameters.begin());
   parameters[kTrendLight] = PlainLight(blocks);
-  parameters[kTrendVoltage] -= lost_V;
+  parameters[what] += change;
   const DeviceState state =
       StateOf(*blocks.device, parameters, blocks.device->photocurrent_A, kReferenceTemperature_C);
   return MaximumPowerPoint(*blocks.device, state, kReferenceTemperature_C).power_W();
 }
 
+double LostByChange(const TrendBlocks& blocks, const std::string& name, double change) {
+  const double before = PowerAt(blocks);
+  double after = before;
+  if (name == "resistance_series") after = PowerAt(blocks, kTrendSeries, change);
+  if (name == "recombination") after = PowerAt(blocks, kTrendVoltage, -change);
+  if (name == "conductance_shunt") after = PowerAt(blocks, kTrendShunt, change);
+  if (name == "mismatch") return change;
+  return 100 * (1 - after / before);
+}
+
 double PercentPerVolt(const TrendBlocks& blocks) {
   constexpr double kStep_V = 0.01;
-  const double before = PowerAt(blocks, 0);
-  const double after = PowerAt(blocks, kStep_V);
-  return 100 * (1 - after / before) / kStep_V;
+  return LostByChange(blocks, "recombination", kStep_V) / kStep_V;
 }
 
 double DriftOf(const std::string& name, const TrendBlocks& blocks, const TrendOptions& options) {

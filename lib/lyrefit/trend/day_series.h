@@ -14,7 +14,8 @@
 // Series of days for the regressions of quantities and losses.
 namespace lyrefit {
 
-inline constexpr std::size_t kLeastForSizes = 8;  // days from which a regression has errors
+inline constexpr std::size_t kLeastForSizes = 8;   // days from which a regression has errors
+inline constexpr double kLeastForRate_days = 350;  // a shorter series has no rate a year
 
 // Sums of a block.
 struct BlockSums {
@@ -38,7 +39,7 @@ struct BlockSeries {
   std::vector<std::size_t> of;
 };
 
-// Features of the conditions that a regression of days has: temperature and light.
+// Features that a regression of days has: temperature, and light or the dullness of the sky.
 inline constexpr int kBetweenDays = 2;
 
 double SpanDays(const TimeSeries& series);
@@ -60,16 +61,20 @@ BlockSeries SeriesOf(const TrendBlocks& blocks, const Value& value) {
 // Columns: 1, years, and a year's sine and cosine where the series has two years.
 Eigen::MatrixXd DesignOf(const TimeSeries& series, bool* seasonal);
 
-// The mean features of each block less those of the reference.
-Eigen::MatrixXd WithConditions(const TrendBlocks& blocks, const BlockSeries& own,
-                               const Eigen::MatrixXd& design);
+// The mean features of each block, `conditions`, less those of the reference.
+Eigen::MatrixXd WithConditions(const std::vector<Features>& conditions, const TrendBlocks& blocks,
+                               const BlockSeries& own, const Eigen::MatrixXd& design);
 
 Ranged RangedOf(double value, double error, double factor);
 
 Ranged Scaled(const Ranged& one, double by);
 
-// Power in W of the device of the reference at 1000 W/m2 and 25 C with a voltage less.
-double PowerAt(const TrendBlocks& blocks, double lost_V);
+// Power in W of the device of the reference at 1000 W/m2 and 25 C, with `change` added to what is
+// followed at `what`.
+double PowerAt(const TrendBlocks& blocks, TrendParameter what = kTrendVoltage, double change = 0);
+
+// Power in % that a change of a quantity to the worse takes: of `name`, in its unit.
+double LostByChange(const TrendBlocks& blocks, const std::string& name, double change);
 
 // Change of power in % by a lost volt.
 double PercentPerVolt(const TrendBlocks& blocks);

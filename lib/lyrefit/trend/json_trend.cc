@@ -31,6 +31,7 @@ Json QuantityJson(const TrendQuantity& quantity) {
           {"reference", quantity.reference},
           {"rate_per_year", quantity.rate_per_year},
           {"rate_percent", quantity.rate_percent},
+          {"change", quantity.change},
           {"rate_until", DateJson(quantity.rate_until_s)},
           {"steps", steps},
           {"onsets", onsets},
@@ -73,17 +74,26 @@ Json TrendLossJson(const TrendReport& report) {
 
 std::string TrendJson(const TrendReport& report) {
   Json states = Json::object(), reasons = Json::array(), quantities = Json::array(),
-       onsets = Json::array();
+       onsets = Json::array(), covered = Json::array();
   for (int s = 0; s < kTrendRowStates; ++s) {
     states[ToText(static_cast<TrendRowState>(s))] = report.states[static_cast<std::size_t>(s)];
   }
   for (const TrendReason& reason : report.reasons) {
-    reasons.push_back({{"reason", reason.reason}, {"measurements", reason.rows}});
+    reasons.push_back({{"reason", reason.reason},
+                       {"measurements", reason.rows},
+                       {"first", DateJson(reason.first_s)},
+                       {"last", DateJson(reason.last_s)},
+                       {"doubtful", reason.doubtful}});
   }
   for (const TrendQuantity& quantity : report.quantities) {
     quantities.push_back(QuantityJson(quantity));
   }
   for (const TrendOnset& onset : report.onsets) onsets.push_back(OnsetJson(onset));
+  for (const CoveredDays& one : report.covered) {
+    Json days = Json::array();
+    for (const double day_s : one.days_s) days.push_back(DateJson(day_s));
+    covered.push_back({{"frost", one.frost}, {"days", days}, {"lost_percent", one.lost_percent}});
+  }
   const Json j = {{"lyrefit_version", report.version},
                   {"name", report.name},
                   {"verdict", report.verdict},
@@ -98,6 +108,8 @@ std::string TrendJson(const TrendReport& report) {
                   {"measurements", report.rows},
                   {"states", states},
                   {"reasons", reasons},
+                  {"covered", covered},
+                  {"dull_sky_percent", report.dull_sky_percent},
                   {"days", report.days},
                   {"reference_power_W", report.reference_power_W},
                   {"quantities", quantities},

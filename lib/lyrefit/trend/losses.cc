@@ -12,6 +12,7 @@ namespace {
 constexpr double kRecent_days = 30;     // "now"
 constexpr double kPartError = 0.1;      // of a part, in % of energy: of the model
 constexpr double kLightError = 0.4;     // of light: what the seasons leave of a light sensor
+constexpr double kDullError = 0.2;      // of what dull skies explain between reference and series
 constexpr double kMismatchError = 0.2;  // what the shapes of sweeps leave
 // Of the shunt's part: what shunts of unlike cells move to series resistance and recombination.
 constexpr double kUnevenShunt = 0.15;
@@ -158,8 +159,9 @@ TrendLosses FindLosses(const std::vector<TrendQuantity>& quantities, const Trend
     if (p == kPartMismatch) own_error = kMismatchError;
     if (total) own_error = std::hypot(kLightError, kMismatchError);
     const auto error = [&](const std::vector<double>& weights) {
-      return mixed ? std::hypot(own_error, kUnevenShunt * MeanPart(sums, weights, kPartShunt))
-                   : own_error;
+      if (mixed) return std::hypot(own_error, kUnevenShunt * MeanPart(sums, weights, kPartShunt));
+      if (p == kPartMismatch) return own_error;
+      return std::hypot(own_error, kDullError * DullSkyPercent(blocks, weights));
     };
     loss.energy_percent = MeanLoss(blocks, own, all, changes, daily, drift, error(all));
     loss.now_percent = MeanLoss(blocks, own, recent, changes, daily, drift, error(recent));

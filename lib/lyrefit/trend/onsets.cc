@@ -1,17 +1,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "lyrefit/base/append.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/curve/date_time.h"
+#include "lyrefit/trend/day_series.h"
 #include "lyrefit/trend/quantities.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr double kTogether_days = 45;  // onsets of shunt and recombination so near are one cause
+constexpr double kShade_days = 30;     // of the days that tell how a shade came
 
 // Name of the part of the loss that a quantity belongs to.
 std::string PartOf(const std::string& quantity) {
@@ -46,10 +50,72 @@ Cause DeviceCause(const char* id, std::string title, const char* sentence, const
   return cause;
 }
 
-Cause CauseOf(const TrendReport& report, const TrendQuantity& quantity, const TrendChange& change) {
+// Power in % lost by mismatch on the days from `begin_s` on, within a part of a month.
+double MismatchFrom(const TrendBlocks& blocks, double begin_s) {
+  double lost_W = 0, expected_W = 0;
+  for (const TrendRow& row : blocks.rows) {
+    if (row.time_s < begin_s || row.time_s > begin_s + kShade_days * kDay_s) continue;
+    lost_W += row.parts_W[kPartMismatch];
+    expected_W += row.expected_W;
+  }
+  return expected_W > 0 ? 100 * lost_W / expected_W : kUnknown;
+}
+
+// "between 8 and 10 o'clock": three hours of the logger's day at most that have most of what
+// mismatch takes in the month from `begin_s` on; empty: there are none.
+std::string HoursOfMismatch(const TrendBlocks& blocks, double begin_s) {
+  constexpr int kHours = 24, kWindow = 3;
+  constexpr double kMost = 0.7;
+  std::array<double, kHours> lost_W{};
+  double all_W = 0;
+  for (const TrendRow& row : blocks.rows) {
+    if (row.time_s < begin_s || row.time_s > begin_s + kShade_days * kDay_s) continue;
+    const double hour = kHours * (row.time_s / kDay_s - std::floor(row.time_s / kDay_s));
+    const double own_W = std::max(row.parts_W[kPartMismatch], 0.0);
+    lost_W[std::min(static_cast<int>(hour), kHours - 1)] += own_W;
+    all_W += own_W;
+  }
+  for (int begin = 0; begin + kWindow <= kHours; ++begin) {
+    double own_W = 0;
+    for (int k = 0; k < kWindow; ++k) own_W += lost_W[begin + k];
+    if (all_W > 0 && own_W > kMost * all_W) {
+      return fmt::format(", most of it between {} and {} o'clock", begin, begin + kWindow);
+    }
+  }
+  return "";
+}
+
+// Whether mismatch took as much at this season of the record's first year, and less between.
+bool ReturnsWithSeason(const TrendBlocks& blocks, double time_s) {
+  constexpr double kHalf = 0.5;
+  const double now = MismatchFrom(blocks, time_s);
+  const double last_s = blocks.time_s.back();
+  double before = kUnknown, least = now;
+  for (double begin_s = blocks.time_s.front(); begin_s < std::min(time_s, last_s);
+       begin_s += 0.5 * kShade_days * kDay_s) {
+    const double own = MismatchFrom(blocks, begin_s);
+    if (!std::isfinite(own)) continue;
+    const double season = std::fabs(std::remainder((time_s - begin_s) / kDay_s, kYear_days));
+    if (season < 2 * kShade_days && time_s - begin_s > kYear_days / 2 && !(own <= before)) {
+      before = own;
+    }
+    least = std::min(least, own);
+  }
+  return before > kHalf * now && least < kHalf * kHalf * now;
+}
+
+Cause CauseOf(const TrendBlocks& blocks, const TrendReport& report, const TrendQuantity& quantity,
+              const TrendChange& change) {
   if (quantity.name == "mismatch") {
+    const std::string hours = HoursOfMismatch(blocks, change.time_s);
+    if (ReturnsWithSeason(blocks, change.time_s)) {
+      return DeviceCause("seasonal_shade", "shade that comes back with the season" + hours,
+                         "mismatch took as much at this season before, and less between",
+                         "look for what throws a shadow when the sun is where it is then; nothing "
+                         "in the device has changed");
+    }
     return DeviceCause(
-        "growing_mismatch", "growing mismatch",
+        "growing_mismatch", "growing mismatch" + hours,
         "power is lost that neither light nor resistances explain: shade, dirt or snow on a "
         "part, broken cells",
         "look at the module at the time of its losses; diagnose one of the sweeps");
@@ -138,6 +204,19 @@ std::vector<TrendOnset> OnsetsOfSubstrings(const TrendBlocks& blocks, const Tren
   return onsets;
 }
 
+// Whether the number of lost substrings changes within the days around a time.
+bool SubstringsChange(const TrendBlocks& blocks, double time_s) {
+  constexpr double kAround_s = 10 * kDay_s;
+  const std::vector<int> lost = LostByBlock(blocks);
+  int least = blocks.device->substrings, most = 0;
+  for (std::size_t b = 0; b < lost.size(); ++b) {
+    if (lost[b] < 0 || std::fabs(blocks.time_s[b] - time_s) > kAround_s) continue;
+    least = std::min(least, lost[b]);
+    most = std::max(most, lost[b]);
+  }
+  return most > least;
+}
+
 bool MayEchoSubstrings(const TrendOnset& onset) {
   return onset.cause.id != "lost_substrings" && onset.quantity != "conductance_shunt" &&
          onset.cause.id != "potential_induced_degradation";
@@ -164,6 +243,41 @@ std::vector<TrendOnset> WithoutEchoes(const std::vector<TrendOnset>& onsets) {
 
 }  // namespace
 
+std::optional<ExchangedDevice> FindExchange(const TrendBlocks& blocks, const TrendReport& report) {
+  constexpr double kSameDay_s = 3 * kDay_s;
+  constexpr std::size_t kLeastChanged = 3;
+  // Least improvements that no device makes by itself: of the reference, of a voltage of 1 V a cell.
+  constexpr double kBetter = 0.04, kBetter_V = 0.002;
+  for (const TrendQuantity& first : report.quantities) {
+    for (const TrendChange& at : first.changes) {
+      if (at.onset) continue;
+      ExchangedDevice found{at.time_s, {}};
+      bool better = false;
+      for (const TrendQuantity& one : report.quantities) {
+        const bool device = one.name == "resistance_series" || one.name == "recombination" ||
+                            one.name == "conductance_shunt";
+        if (!device && one.name != "light") continue;
+        for (const TrendChange& step : one.changes) {
+          if (step.onset || std::fabs(step.time_s - at.time_s) > kSameDay_s) continue;
+          found.changed.push_back(fmt::format("{} {:+.3g} {}",
+                                              one.title.substr(0, one.title.find(',')),
+                                              step.size.value, one.unit));
+          found.time_s = std::min(found.time_s, step.time_s);
+          const double least = one.name == "recombination" ? kBetter_V * report.cells_in_series
+                                                           : kBetter * one.reference;
+          better |= device && step.size.high_95 < -least;
+          break;
+        }
+      }
+      if (better && found.changed.size() >= kLeastChanged &&
+          !SubstringsChange(blocks, found.time_s)) {
+        return found;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 std::vector<TrendQuantity> WithoutChangesByShunt(std::vector<TrendQuantity> quantities) {
   constexpr double kBefore_s = 10 * kDay_s;
   double begin_s = kInfinity;
@@ -185,16 +299,21 @@ std::vector<TrendQuantity> WithoutChangesByShunt(std::vector<TrendQuantity> quan
   return quantities;
 }
 
-std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport& report) {
+std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport& report,
+                                   double least_percent) {
   std::vector<TrendOnset> onsets;
   for (const TrendQuantity& quantity : report.quantities) {
     if (!quantity.monitored) continue;
     for (const TrendChange& change : quantity.changes) {
       if (!(change.size.value > 0)) continue;  // to the better, or the end of a growth
+      const double years =
+          change.onset ? (report.last_s - change.time_s) / (kYear_days * kDay_s) : 1;
+      const double lost = LostByChange(blocks, quantity.name, change.size.value * years);
+      if (!(lost >= least_percent)) continue;
       // What grows slowly in operating points may be a shunt.
       if (change.onset && report.source == TrendSource::kOperatingPoints) continue;
       onsets.push_back({quantity.name, change.time_s, change.earliest_s, change.latest_s,
-                        LostNow(report, quantity.name), CauseOf(report, quantity, change)});
+                        LostNow(report, quantity.name), CauseOf(blocks, report, quantity, change)});
     }
   }
   Append(OnsetsOfSubstrings(blocks, report), &onsets);

@@ -1,6 +1,8 @@
 // Optimized fully: it runs once for each sweep of years.
 #include "lyrefit/trend/operating_rows.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <Eigen/QR>
 #include <algorithm>
@@ -49,6 +51,35 @@ double VoltageRatio(const TrendDevice& device, const TrendRow& row) {
 
 bool IsBright(const TrendRow& row, const TrendOptions& options) {
   return row.state == TrendRowState::kUsed && row.irradiance_W_m2 >= options.least_irradiance_W_m2;
+}
+
+// Why these readings are none of the module at any light that its sensor may have missed; empty:
+// they may be.
+std::string DoubtOfPoint(const TrendDevice& device, const TrendRow& row) {
+  constexpr double kMost = 3, kMost_W_m2 = 2000, kSun = 1.6;
+  if (row.irradiance_W_m2 > kMost_W_m2) {
+    return fmt::format("an irradiance of {:.4g} W/m2, expected at most {:g}", row.irradiance_W_m2,
+                       kMost_W_m2);
+  }
+  const double voc = device.OpenCircuit(device.photocurrent_A, 25);
+  const double volts = row.voltage_V / voc, amperes = row.current_A / device.photocurrent_A;
+  const bool exchanged = row.current_A < kMost * voc && row.current_A > 0.3 * voc &&
+                         row.voltage_V < kMost * device.photocurrent_A;
+  if (exchanged && amperes > kMost) {
+    return fmt::format("{:.4g} V and {:.4g} A: are the columns of voltage and current exchanged?",
+                       row.voltage_V, row.current_A);
+  }
+  if (amperes > kMost || volts > kMost) {
+    return fmt::format(
+        "{:.4g} V and {:.4g} A, of a module of {:.3g} V and {:.3g} A: mA for A, or "
+        "mV for V, or more than one module?",
+        row.voltage_V, row.current_A, voc, device.photocurrent_A);
+  }
+  if (row.irradiance_W_m2 < kSun && amperes > 0.03) {
+    return fmt::format("{:.4g} W/m2 with a current of {:.4g} A: kW/m2 for W/m2?",
+                       row.irradiance_W_m2, row.current_A);
+  }
+  return "";
 }
 
 // Rows of each day, by time.
@@ -238,6 +269,11 @@ void ReduceOperatingPoints(const TrendDevice& device, const TrendOptions& option
   std::stable_sort(rows->begin(), rows->end(), [](const TrendRow& one, const TrendRow& other) {
     return one.time_s < other.time_s;
   });
+  for (TrendRow& row : *rows) {
+    if (row.state != TrendRowState::kUsed) continue;
+    row.reason = DoubtOfPoint(device, row);
+    if (!row.reason.empty()) row.state = TrendRowState::kDoubtful;
+  }
   for (TrendRow& row : *rows) {
     if (row.state == TrendRowState::kUsed && row.irradiance_W_m2 < options.least_irradiance_W_m2) {
       row.state = TrendRowState::kDim;

@@ -17,9 +17,8 @@ namespace {
 
 constexpr double kLeastForConditions_days = 270;  // seasons enough to tell them from a trend
 constexpr double kLeastForChanges_days = 10;  // conditions of fewer days are not told from changes
-constexpr double kLeastForRate_days = 30;     // a shorter series has no rate a year
+constexpr double kLeastForChange_days = 30;   // a shorter series has no change so far
 constexpr double kScaleError = 0.02;          // of sizes: gains, temperature of the cells, model
-constexpr double kLeastForShortRate_days = 120;  // of a part of the series
 constexpr double kUnmonitoredLevel = 0.002;
 constexpr int kMonitored = 4;  // quantities whose onsets are claimed
 
@@ -101,13 +100,16 @@ Eigen::MatrixXd DesignOfLine(const TimeSeries& series) {
   return design;
 }
 
-// The mean rate over the series, without steps, as a sum of coefficients: the rate at the start, and
-// the part of the time after each onset times what it adds.
-Eigen::VectorXd MeanRate(const TimeSeries& series, const ChangingSeries& found) {
+// The mean rate over the series as a sum of coefficients: the rate at the start, the part of the time
+// after each onset times what it adds, and, `with_steps`, each step over the years.
+Eigen::VectorXd MeanRate(const TimeSeries& series, const ChangingSeries& found, bool with_steps) {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(found.design.cols());
   weights[1] = 1;
   for (const ChangePoint& change : found.changes) {
-    if (change.kind != ChangeKind::kOnset) continue;
+    if (change.kind == ChangeKind::kStep) {
+      weights[change.column] = with_steps ? kYear_days / SpanDays(series) : 0;
+      continue;
+    }
     weights[change.column] = (series.days.back() - change.day) / SpanDays(series);
   }
   return weights;
@@ -143,7 +145,7 @@ FoundQuantity FindQuantity(const TrendBlocks& blocks, TrendSource source,
   Eigen::MatrixXd design = DesignOf(own.series, &seasonal);
   const Eigen::Index first_condition = design.cols();
   conditions = conditions && SpanDays(own.series) >= kLeastForConditions_days;
-  if (conditions) design = WithConditions(blocks, own, design);
+  if (conditions) design = WithConditions(blocks.mean[kind.followed], blocks, own, design);
   ChangeOptions changes;
   changes.seed = options.seed;
   changes.level = std::min(options.false_alarms_per_year * std::max(years, 0.1) / kMonitored, 0.2);
@@ -154,13 +156,13 @@ FoundQuantity FindQuantity(const TrendBlocks& blocks, TrendSource source,
   quantity.reference = ReferenceMean(blocks, own);
   if (quantity.name == "recombination") quantity.reference = 0;  // by its definition
   const double drift = DriftOf(quantity.name, blocks, options);
-  const Eigen::VectorXd mean = MeanRate(own.series, found);
+  const Eigen::VectorXd mean = MeanRate(own.series, found, kind.followed == kTrendLight);
   const double rate = mean.dot(fit.coefficients);
   const double error =
       std::hypot(std::sqrt(mean.dot(fit.covariance * mean)), drift, kScaleError * rate);
-  if (SpanDays(own.series) >= kLeastForRate_days) {
-    quantity.rate_per_year = RangedOf(rate, error, fit.t_95());
-  }
+  const Ranged mean_rate = RangedOf(rate, error, fit.t_95());
+  if (SpanDays(own.series) >= kLeastForRate_days) quantity.rate_per_year = mean_rate;
+  if (SpanDays(own.series) >= kLeastForChange_days) quantity.change = Scaled(mean_rate, years);
   quantity.rate_percent = RatePercent(quantity);
   if (seasonal) quantity.seasonal = std::hypot(fit.coefficients[2], fit.coefficients[3]);
   quantity.day_scatter = fit.noise.sigma;
@@ -198,14 +200,14 @@ TrendBlocks WithBetweenDays(TrendBlocks blocks, int what,
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (!blocks.IsReference(b)) continue;
     for (int f = 0; f < kBetweenDays; ++f) {
-      reference[f] += blocks.mean[b][f] / blocks.reference_blocks;
+      reference[f] += blocks.mean[what][b][f] / blocks.reference_blocks;
     }
   }
   for (int f = 0; f < kBetweenDays; ++f) {
     blocks.departures[what][f] += between[f];
     blocks.reference[what] -= between[f] * reference[f];
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-      blocks.level[what][b] -= between[f] * blocks.mean[b][f];
+      blocks.level[what][b] -= between[f] * blocks.mean[what][b][f];
     }
   }
   return blocks;
@@ -236,7 +238,7 @@ std::vector<TrendQuantity> WithRatesBeforeShunt(std::vector<TrendQuantity> quant
     }
     quantity.rate_until_s = begin_s;
     quantity.rate_per_year = quantity.rate_percent = Ranged();
-    if (before.days.size() < kLeastForSizes || SpanDays(before) < kLeastForShortRate_days) continue;
+    if (before.days.size() < kLeastForSizes || SpanDays(before) < kLeastForRate_days) continue;
     const TimeFit fit = FitTime(before, DesignOfLine(before));
     const double rate = fit.coefficients[1];
     const double error = std::hypot(std::sqrt(fit.covariance(1, 1)), DriftOf(name, blocks, options),

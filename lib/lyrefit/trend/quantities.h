@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "lyrefit/trend/blocks.h"
@@ -39,8 +41,19 @@ TrendLosses FindLosses(const std::vector<TrendQuantity>& quantities, const Trend
 // uneven shunts bend the knee as these do.
 std::vector<TrendQuantity> WithoutChangesByShunt(std::vector<TrendQuantity> quantities);
 
-// Changes to the worse of a parameter or of mismatch, with what they may be. Needs quantities and
-// losses.
-std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport& report);
+// Another device from a day on.
+struct ExchangedDevice {
+  double time_s = kUnknown;          // of its first day
+  std::vector<std::string> changed;  // "series resistance -0.0256 ohm"
+};
+
+// A day on which three quantities or more step at once, one of them to the better by more than a
+// device does by itself. None: there is no such day. Needs the parameters among the quantities.
+std::optional<ExchangedDevice> FindExchange(const TrendBlocks& blocks, const TrendReport& report);
+
+// Changes to the worse of a parameter or of mismatch that take `least_percent` of the power, with
+// what they may be. Needs quantities and losses.
+std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport& report,
+                                   double least_percent);
 
 }  // namespace lyrefit

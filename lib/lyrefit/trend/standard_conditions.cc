@@ -55,6 +55,10 @@ Features FeaturesAt(double light, double temperature_C) {
   return {warm, ln, ln * ln, warm * ln, warm * warm};
 }
 
+Features SkyFeaturesAt(double temperature_C, double clearness, double height) {
+  return {(temperature_C - 25) / 10, 1 - clearness, clearness * std::pow(1 - height, 4)};
+}
+
 double Departure(const Features& coefficients, const Features& features) {
   double sum = 0;
   for (int f = 0; f < kConditionFeatures; ++f) sum += coefficients[f] * features[f];

@@ -18,6 +18,11 @@ using Features = std::array<double, kConditionFeatures>;
 // 1000 W/m2.
 Features FeaturesAt(double light, double temperature_C);
 
+// Features of the light that a device gets of what its sensor shows: t, 1 - c, c (1 - h)^4, 0, 0 for
+// a clearness c and a height h (clearness.h). Under a dull sky and in grazing light sensor and device
+// answer differently.
+Features SkyFeaturesAt(double temperature_C, double clearness, double height);
+
 // The sum of coefficients times features.
 double Departure(const Features& coefficients, const Features& features);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "lyrefit/base/reasons.h"
 #include "lyrefit/base/seconds.h"
@@ -28,6 +30,10 @@ std::vector<TrendReason> CountReasons(const std::vector<TrendRow>& rows) {
     if (row.reason.empty()) continue;
     TrendReason& reason = reasons[WithoutNumbers(row.reason)];
     if (reason.rows++ == 0) reason.reason = row.reason;
+    reason.doubtful = row.state == TrendRowState::kDoubtful;
+    if (!std::isfinite(row.time_s)) continue;
+    reason.first_s = std::fmin(reason.first_s, row.time_s);
+    reason.last_s = std::fmax(reason.last_s, row.time_s);
   }
   std::vector<TrendReason> counted;
   counted.reserve(reasons.size());
@@ -55,8 +61,41 @@ TrendReport SeriesReport(const TrendSeries& series, const TrendBlocks& blocks,
   report.first_s = blocks.rows.front().time_s;
   report.last_s = blocks.rows.back().time_s;
   report.reference_end_s = blocks.reference_end_s;
-  report.reasons = CountReasons(series.rows);
+  report.reference_capped = blocks.reference_capped;
   return report;
+}
+
+// Leaves out what repeats another row to the last digit, as a file that holds a day twice has it.
+void LeaveOutRepeated(std::vector<TrendRow>* rows) {
+  const auto values = [](const TrendRow& row) {
+    return std::tuple(row.time_s, row.irradiance_W_m2, row.temperature_C, row.voltage_V,
+                      row.current_A);
+  };
+  std::set<decltype(values(TrendRow()))> known;
+  for (TrendRow& row : *rows) {
+    if (!CountsInBlocks(row) || known.insert(values(row)).second) continue;
+    row.state = TrendRowState::kUnusable;
+    row.reason = "the same measurement again";
+  }
+}
+
+// The rows of a series with what tells whether they count.
+std::vector<TrendRow> RowsToJudge(const TrendSeries& series, const TrendOptions& options) {
+  std::vector<TrendRow> rows = series.rows;
+  LeaveOutRepeated(&rows);
+  if (series.source == TrendSource::kOperatingPoints) {
+    ReduceOperatingPoints(*series.device, options, &rows);
+  }
+  return rows;
+}
+
+TrendSeries Until(const TrendSeries& series, double end_s) {
+  TrendSeries first = series;
+  first.rows.clear();
+  for (const TrendRow& row : series.rows) {
+    if (!(row.time_s >= end_s)) first.rows.push_back(row);
+  }
+  return first;
 }
 
 }  // namespace
@@ -67,29 +106,40 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
   const Instant start = Now();
   const Observer nobody;  // a series whose reading was stopped is judged as far as it goes
   const ProgressReporter progress(series.interrupted ? nobody : observer, "trend", 2);
-  std::vector<TrendRow> rows = series.rows;
-  if (series.source == TrendSource::kOperatingPoints) {
-    ReduceOperatingPoints(*series.device, options, &rows);
-  }
+  std::vector<TrendRow> rows = RowsToJudge(series, options);
+  const std::vector<TrendReason> reasons = CountReasons(rows);
   TrendBlocks blocks = MakeBlocks(*series.device, std::move(rows), options);
   if (blocks.size() < kLeastBlocks || blocks.reference_blocks < 1) {
     return Fail(fmt::format(
         "expected usable measurements at {} times or more, found {}: {} of {} measurements count; "
         "{}",
-        kLeastBlocks, blocks.size(), blocks.rows.size(), series.rows.size(), kSideBySide));
+        kLeastBlocks, blocks.size(), blocks.rows.size(), series.rows.size(),
+        reasons.empty() ? std::string(kSideBySide) : ReasonText(reasons.front())));
   }
   TrendReport report = SeriesReport(series, blocks, options);
+  report.reasons = reasons;
   TrendParametersFound found = FindParameters(std::move(blocks), series.source, options);
   if (progress.Step()) return Fail("interrupted");
   blocks = WithLosses(std::move(found.blocks), options.threads);
-  report.reference_power_W = PowerAt(blocks, 0) * std::exp(-blocks.reference[kModelExcess]);
-  report.quantities = WithPowers(std::move(found.quantities), blocks, series.source, options);
+  report.reference_power_W = PowerAt(blocks) * std::exp(-blocks.reference[kModelExcess]);
+  report.covered = FindCoveredDays(blocks);
+  report.dull_sky_percent = DullSkyPercent(blocks);
+  report.quantities = std::move(found.quantities);
+  if (const auto exchange = FindExchange(blocks, report)) {
+    const TrendSeries first = Until(series, exchange->time_s);
+    if (auto of_first = FindTrend(first, options, observer)) {
+      of_first->warnings.push_back(ExchangeWarning(*exchange));
+      of_first->verdict = of_first->warnings.back() + " " + of_first->verdict;
+      return of_first;
+    }
+  }
+  report.quantities = WithPowers(std::move(report.quantities), blocks, series.source, options);
   TrendLosses losses = FindLosses(report.quantities, blocks, series.source, options);
   report.losses = std::move(losses.losses);
   report.loss_days = std::move(losses.days);
   report.quantities = WithoutChangesByShunt(std::move(report.quantities));
-  report.onsets = FindOnsets(blocks, report);
-  report.verdict = VerdictOf(report, options.least_irradiance_W_m2);
+  report.onsets = FindOnsets(blocks, report, options.least_onset_percent);
+  report.verdict = VerdictOf(report, options);
   report.not_decided = NotDecided(report);
   report.warnings = FindWarnings(report);
   if (progress.Step()) return Fail("interrupted");

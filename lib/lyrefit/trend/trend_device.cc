@@ -1,12 +1,18 @@
 // Optimized fully: it runs once for each sweep of years.
 #include "lyrefit/trend/trend_device.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <string>
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/roots.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/curve/plausibility.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/trend/fit_sweep.h"
 
@@ -73,9 +79,13 @@ double FirstIdeality(double single) {
 // A device whose light, cells and coefficients are those that the sweeps state.
 TrendDevice StatedDevice(const std::vector<const IvCurve*>& sweeps) {
   TrendDevice device;
+  std::map<int, int> sweeps_of;  // by the number of cells that they state
+  for (const IvCurve* curve : sweeps) {
+    const int cells = curve->conditions.cells_in_series;
+    if (++sweeps_of[cells] > sweeps_of[device.cells_in_series]) device.cells_in_series = cells;
+  }
   for (const IvCurve* curve : sweeps) {
     const DeviceNotes& notes = curve->notes;
-    device.cells_in_series = curve->conditions.cells_in_series;
     device.substrings = notes.bypass_diodes.value_or(device.substrings);
     device.bandgap_eV = notes.bandgap_eV.value_or(device.bandgap_eV);
     device.bandgap_slope_per_K = notes.bandgap_slope_per_K.value_or(device.bandgap_slope_per_K);
@@ -84,12 +94,27 @@ TrendDevice StatedDevice(const std::vector<const IvCurve*>& sweeps) {
   return device;
 }
 
-std::vector<SweepFit> FitAll(const std::vector<const IvCurve*>& sweeps, double n, SweepFree free,
-                             std::vector<const IvCurve*>* fitted) {
+// Why these readings are none of a device in the open.
+std::optional<std::string> DoubtOf(const TrendDevice& device, const IvCurve& curve) {
+  constexpr double kMost_W_m2 = 2000;
+  if (curve.conditions.irradiance_W_m2 > kMost_W_m2) {
+    return fmt::format("an irradiance of {:.4g} W/m2, expected at most {:g}",
+                       curve.conditions.irradiance_W_m2, kMost_W_m2);
+  }
+  const int cells = curve.conditions.cells_in_series;
+  if (cells > 1 && cells != device.cells_in_series) {
+    return fmt::format("{} cells in series are stated, the device has {}", cells,
+                       device.cells_in_series);
+  }
+  return PlausibilityProblem(curve);
+}
+
+std::vector<SweepFit> FitAll(const TrendDevice& device, const std::vector<const IvCurve*>& sweeps,
+                             double n, SweepFree free, std::vector<const IvCurve*>* fitted) {
   std::vector<SweepFit> fits;
   fitted->clear();
   for (const IvCurve* curve : sweeps) {
-    if (!IsSweep(*curve)) continue;
+    if (!IsSweep(*curve) || DoubtOf(device, *curve)) continue;
     const SweepFit fit =
         FitSweep(curve->voltage_V, curve->current_A, ThermalAtOne(*curve), n, free);
     if (!fit.usable) continue;
@@ -184,16 +209,21 @@ Expected<TrendDevice> DeviceOfModule(const NamedParameters& module) {
 Expected<TrendDevice> DeviceOfSweeps(const std::vector<const IvCurve*>& sweeps) {
   TrendDevice device = StatedDevice(sweeps);
   std::vector<const IvCurve*> fitted;
-  const std::vector<SweepFit> single = FitAll(sweeps, 1.2, SweepFree::kIdeality, &fitted);
+  const std::vector<SweepFit> single = FitAll(device, sweeps, 1.2, SweepFree::kIdeality, &fitted);
   if (!single.empty()) {
     device.n = FirstIdeality(MedianOf(single, [](const SweepFit& fit) { return fit.n; }));
   }
-  const std::vector<SweepFit> fits = FitAll(sweeps, device.n, SweepFree::kSecondDiode, &fitted);
+  const std::vector<SweepFit> fits =
+      FitAll(device, sweeps, device.n, SweepFree::kSecondDiode, &fitted);
   if (fits.empty()) {
-    return Fail(
+    std::string why;
+    for (const IvCurve* curve : sweeps) {
+      if (why.empty()) why = DoubtOf(device, *curve).value_or("");
+    }
+    return Fail(fmt::format(
         "expected sweeps from 0 V to open circuit with their irradiance and temperature, found "
-        "none "
-        "in the reference days");
+        "none in the reference days{}{}",
+        why.empty() ? "" : ": ", why));
   }
   device.resistance_series_ohm =
       MedianOf(fits, [](const SweepFit& fit) { return fit.resistance_series_ohm; });
@@ -237,6 +267,11 @@ TrendRow ReduceSweep(const TrendDevice& device, const IvCurve& curve, double tim
   }
   if (!(row.isc_A > 0) || !(row.voc_V > 0) || !(row.irradiance_W_m2 > 0)) {
     row.reason = row.irradiance_W_m2 > 0 ? "no short circuit or no open circuit" : "dark";
+    return row;
+  }
+  if (const std::optional<std::string> doubt = DoubtOf(device, curve)) {
+    row.state = TrendRowState::kDoubtful;
+    row.reason = *doubt;
     return row;
   }
   row.lost_substrings =

@@ -7,6 +7,7 @@
 #include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
+#include "lyrefit/trend/day_series.h"
 #include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/trend/trend_parts.h"
 #include "lyrefit/trend/trend_report.h"
@@ -44,7 +45,9 @@ Section TrendHead(const TrendReport& report) {
                        StatesText(report)),
            &head);
   AddField("reference",
-           fmt::format("up to {}: {} W at 1000 W/m2 and 25 C", DateText(report.reference_end_s),
+           fmt::format("the first clear days, up to {}{}: {} W at 1000 W/m2 and 25 C",
+                       DateText(report.reference_end_s),
+                       report.reference_capped ? " (no more than a third of the series)" : "",
                        Significant(report.reference_power_W, 4)),
            &head);
   AddField("law",
@@ -54,8 +57,7 @@ Section TrendHead(const TrendReport& report) {
            &head);
   AddField("seed", fmt::format("{}", report.seed), &head);
   for (const TrendReason& reason : report.reasons) {
-    AddField("left out", fmt::format("{}: {}", Plural(reason.rows, "measurement"), reason.reason),
-             &head);
+    AddField(reason.doubtful ? "DOUBTFUL" : "left out", ReasonText(reason), &head);
   }
   return head;
 }
@@ -85,8 +87,10 @@ Section LossSection(const TrendReport& report) {
 
 Section QuantitySection(const TrendReport& report) {
   Section section = {"Parameters at standard conditions over time"};
+  const bool short_series = IsBelowAYear(report);
   block::Table table = {"lrrlrl",
                         {{"", "reference", "a year", "95 % interval", "% a year", "seasonal"}}};
+  if (short_series) table = {"lrrl", {{"", "reference", "change", "95 % interval"}}};
   for (const TrendQuantity& quantity : report.quantities) {
     const std::string name = quantity.unit.empty()
                                  ? ShortTitle(quantity)
@@ -95,34 +99,42 @@ Section QuantitySection(const TrendReport& report) {
       table.rows.push_back({name, "-"});
       continue;
     }
+    const Ranged& shown = short_series ? quantity.change : quantity.rate_per_year;
     table.rows.push_back(
-        {name, Significant(quantity.reference, 4), Significant(quantity.rate_per_year.value, 3),
-         TrendRange(quantity.rate_per_year),
-         std::isfinite(quantity.rate_percent.value)
-             ? fmt::format("{:+.2f}", quantity.rate_percent.value)
-             : "",
-         std::isfinite(quantity.seasonal) ? Significant(quantity.seasonal, 2) : ""});
+        {name, Significant(quantity.reference, 4), Significant(shown.value, 3), TrendRange(shown)});
+    if (short_series) continue;
+    table.rows.back().push_back(std::isfinite(quantity.rate_percent.value)
+                                    ? fmt::format("{:+.2f}", quantity.rate_percent.value)
+                                    : "");
+    table.rows.back().push_back(std::isfinite(quantity.seasonal) ? Significant(quantity.seasonal, 2)
+                                                                 : "");
   }
   AddTable(std::move(table), &section);
-  section.blocks.emplace_back(
-      block::Legend{"Power is relative to what the reference lets expect, light to what the sensor "
-                    "reads. Mismatch is that within substrings. Rates are means without steps. "
-                    "Seasonal: the amplitude, from two years on."});
+  section.blocks.emplace_back(block::Legend{
+      std::string("Power is relative to what the reference lets expect, light to what "
+                  "the sensor reads. Mismatch is that within substrings. ") +
+      (short_series ? "Change: so far, without steps but for light. A series of less than 350 "
+                      "days has no rates."
+                    : "Rates are means without steps, but for light, which rain changes in "
+                      "steps. Seasonal: the amplitude, from two years on.")});
   return section;
 }
 
 Section ChangeSection(const TrendReport& report) {
   Section section = {"Steps and onsets"};
   block::Table table = {"llllrl", {{"date", "between", "", "quantity", "size", "95 % interval"}}};
+  const bool short_series = IsBelowAYear(report);
   for (const TrendQuantity& quantity : report.quantities) {
     for (const TrendChange& change : quantity.changes) {
+      const bool by_day = change.onset && short_series;
+      const Ranged shown = Scaled(change.size, by_day ? 1 / kYear_days : 1);
+      const char* const per = !change.onset ? "" : by_day ? "/d" : "/a";
       table.rows.push_back(
           {DateText(change.time_s),
            fmt::format("{} .. {}", DateText(change.earliest_s), DateText(change.latest_s)),
            change.onset ? "onset" : "step", ShortTitle(quantity),
-           fmt::format("{} {}{}", Significant(change.size.value, 3), quantity.unit,
-                       change.onset ? "/a" : ""),
-           TrendRange(change.size)});
+           fmt::format("{} {}{}", Significant(shown.value, 3), quantity.unit, per),
+           TrendRange(shown)});
     }
   }
   if (!table.rows.empty()) AddTable(std::move(table), &section);

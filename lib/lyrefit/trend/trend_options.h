@@ -19,6 +19,8 @@ struct TrendOptions {
   double least_irradiance_W_m2 = 200;
   // Expected number of false onsets a year of a device without a change.
   double false_alarms_per_year = 0.05;
+  // Onsets of what takes less power than this are not claimed, in percent.
+  double least_onset_percent = 0.3;
   // Standard deviations of what the instruments may drift in a year. They widen intervals.
   double irradiance_drift_percent = 0.5;
   double temperature_drift_K = 0.2;
@@ -34,6 +36,8 @@ inline constexpr OptionRow<TrendOptions> kTrendOptionTable[] = {
      &TrendOptions::least_irradiance_W_m2, 0.0, 1000.0},
     {"false-alarms", "RATE", "expected number of false onsets a year",
      &TrendOptions::false_alarms_per_year, 0.001, 5.0},
+    {"least-onset", "PERCENT", "onsets of what takes less power are not claimed",
+     &TrendOptions::least_onset_percent, 0.0, 100.0},
     {"irradiance-drift", "PERCENT",
      "what the light sensor may drift in a year, one standard deviation",
      &TrendOptions::irradiance_drift_percent, 0.0, 20.0},

@@ -37,6 +37,7 @@ enum class TrendRowState {
   kLimited,     // the inverter limited power: nothing counts
   kOffMaximum,  // not at maximum power: nothing counts
   kUnusable,    // nothing counts; see the reason
+  kDoubtful,    // readings that no device gives, such as those of another unit: nothing counts
 };
 
 template <>
@@ -46,11 +47,12 @@ struct EnumTable<TrendRowState> {
                                                       {TrendRowState::kDim, "dim"},
                                                       {TrendRowState::kLimited, "limited"},
                                                       {TrendRowState::kOffMaximum, "off maximum"},
-                                                      {TrendRowState::kUnusable, "unusable"}};
+                                                      {TrendRowState::kUnusable, "unusable"},
+                                                      {TrendRowState::kDoubtful, "doubtful"}};
 };
 
 // Number of states.
-constexpr int kTrendRowStates = 6;
+constexpr int kTrendRowStates = 7;
 
 // Positions of the parameters that are followed over time.
 enum TrendParameter {
@@ -76,6 +78,8 @@ struct TrendRow {
   double time_s = kUnknown;
   double irradiance_W_m2 = kUnknown;  // as stated
   double temperature_C = kUnknown;    // of the cells, as stated
+  double clearness = 1;               // of the sky; see clearness.h
+  double height = 1;                  // of the sun, as the light of a clear sky over the day's
   double voltage_V = kUnknown;        // at maximum power
   double current_A = kUnknown;        // at maximum power
   double isc_A = kUnknown;            // of a sweep
@@ -92,16 +96,27 @@ struct TrendRow {
   double substrings_W = 0;   // of the part by mismatch: by lost substrings
   std::array<double, kTrendParts> parts_W = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   TrendRowState state = TrendRowState::kUnusable;
-  std::string reason;  // of an unusable one
+  bool covered = false;  // shaded, by far too little light
+  std::string reason;    // of an unusable or doubtful one
 
   // Power in W.
   double power_W() const { return voltage_V * current_A; }
 };
 
-// Number of measurements that are unusable for one reason.
+// Measurements that are unusable or doubtful for one reason.
 struct TrendReason {
-  std::string reason;     // with the place of the first
-  std::int64_t rows = 0;  // number of measurements
+  std::string reason;         // with the place of the first
+  std::int64_t rows = 0;      // number of measurements
+  double first_s = kUnknown;  // time of the first
+  double last_s = kUnknown;   // time of the last
+  bool doubtful = false;      // no device gives these readings
+};
+
+// Days on which the device was covered.
+struct CoveredDays {
+  bool frost = false;          // the cells were near freezing: snow or ice is likely
+  std::vector<double> days_s;  // mean times, ascending
+  double lost_percent = 0;     // on these days, of the energy of the whole series
 };
 
 // A change of a quantity on a day.
@@ -128,9 +143,12 @@ struct TrendQuantity {
   std::string title;       // "series resistance"
   std::string unit;        // "ohm"
   bool monitored = false;  // its changes to the worse are onsets, at the stated rate of false ones
-  double reference = kUnknown;     // over the reference days
-  Ranged rate_per_year;            // in its unit, mean over the series, without steps
+  double reference = kUnknown;  // over the reference days
+  // In its unit, mean over the series; without steps, but for light, which rain changes in steps. NaN
+  // below a year.
+  Ranged rate_per_year;
   Ranged rate_percent;             // of the reference, a year; NaN without a meaning
+  Ranged change;                   // that rate times the length of the series, of any length
   double rate_until_s = kUnknown;  // the rate is that before this time; NaN: of the whole series
   std::vector<TrendChange> changes;
   double seasonal = kUnknown;        // amplitude over the year; NaN: not separable from a trend
@@ -176,10 +194,14 @@ struct TrendReport {
   double first_s = kUnknown;          // time of the first measurement
   double last_s = kUnknown;           // time of the last one
   double reference_end_s = kUnknown;  // end of the reference days
+  bool reference_capped = false;      // they are fewer than asked for: a third of the series
   std::int64_t rows = 0;              // measurements
   std::array<std::int64_t, kTrendRowStates> states{};  // their number by TrendRowState
-  std::vector<TrendReason> reasons;                    // of the unusable ones
-  std::size_t days = 0;                                // days with data
+  std::vector<TrendReason> reasons;                    // of the unusable and the doubtful ones
+  std::vector<CoveredDays> covered;                    // in the cold, else
+  double dull_sky_percent = kUnknown;   // energy that the sensor shows under dull skies and the
+                                        // device does not get; no loss
+  std::size_t days = 0;                 // days with data
   double reference_power_W = kUnknown;  // at standard conditions, over the reference days
   double energy_kWh = kUnknown;         // measured, if the rows are evenly spaced
   std::vector<TrendQuantity> quantities;

@@ -5,14 +5,46 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/date_time.h"
+#include "lyrefit/trend/day_series.h"
 
 namespace lyrefit {
 namespace {
 
+constexpr double kDullMatters = 0.5;  // % of the energy
+
 bool Decided(const Ranged& one) { return one.low_95 > 0 || one.high_95 < 0; }
 
-std::string PowerVerdict(const TrendReport& report, double least_irradiance_W_m2) {
+double LostWhileCovered(const TrendReport& report) {
+  double lost = 0;
+  for (const CoveredDays& one : report.covered) lost += one.lost_percent;
+  return lost;
+}
+
+// What takes the largest part of the energy, and whether it still does.
+std::string LargestPart(const TrendReport& report, const TrendLoss& largest) {
+  constexpr double kHalf = 0.5;
+  const Ranged& energy = largest.energy_percent;
+  const bool light = largest.name == "light";
+  std::string by = PartTitle(largest.name);
+  if (light && LostWhileCovered(report) > kHalf * energy.value) {
+    by = "light, most of that on the covered days named below";
+  } else if (light && report.dull_sky_percent > energy.value) {
+    by = "light (the light sensor under dull skies, shade on all cells, dirt)";
+  }
+  std::string text = fmt::format(". The largest part, {:.1f} %, is lost by {}", energy.value, by);
+  const Ranged& now = largest.now_percent;
+  const bool over =
+      std::isfinite(now.low_95) && now.low_95 <= 0 && now.value < kHalf * energy.value;
+  if (over) {
+    text += fmt::format(". It is over: the last 30 days have {:.1f} % ({:.1f} to {:.1f}) of it",
+                        now.value, now.low_95, now.high_95);
+  }
+  return text;
+}
+
+std::string PowerVerdict(const TrendReport& report, const TrendOptions& options) {
   const TrendLoss& total = report.losses.back();
   const Ranged& energy = total.energy_percent;
   if (!std::isfinite(energy.value)) return "The series is too short for a loss.";
@@ -25,7 +57,7 @@ std::string PowerVerdict(const TrendReport& report, double least_irradiance_W_m2
       DateText(report.reference_end_s), std::fabs(energy.value),
       energy.value < 0 ? -energy.high_95 : energy.low_95,
       energy.value < 0 ? -energy.low_95 : energy.high_95, energy.value < 0 ? "more" : "less",
-      least_irradiance_W_m2);
+      options.least_irradiance_W_m2);
   const TrendLoss* largest = nullptr;
   for (std::size_t p = 0; p + 1 < report.losses.size(); ++p) {
     const TrendLoss& loss = report.losses[p];
@@ -35,8 +67,7 @@ std::string PowerVerdict(const TrendReport& report, double least_irradiance_W_m2
     }
   }
   if (largest != nullptr) {
-    text += fmt::format(". The largest part, {:.1f} %, is lost by {}",
-                        largest->energy_percent.value, PartTitle(largest->name));
+    text += LargestPart(report, *largest);
   } else if (!Decided(energy)) {
     text += ". This interval shows no loss";
   }
@@ -51,7 +82,73 @@ std::string OnsetVerdict(const TrendReport& report) {
   return text;
 }
 
+// What was left out because no device gives it; the reasons are above the verdict.
+std::string DoubtVerdict(const TrendReport& report) {
+  std::string text;
+  for (const TrendReason& reason : report.reasons) {
+    if (!reason.doubtful) continue;
+    text += fmt::format("{} that no device gives are left out, {} to {}. ",
+                        Plural(reason.rows, "measurement"), DateText(reason.first_s),
+                        DateText(reason.last_s));
+  }
+  return text;
+}
+
+std::string SkyVerdict(const TrendReport& report) {
+  std::string text;
+  if (report.dull_sky_percent > kDullMatters) {
+    text += fmt::format(
+        " Besides, {:.1f} % of the light that the sensor shows under dull skies does not reach the "
+        "device: its sensor answers otherwise to such light, nothing is lost.",
+        report.dull_sky_percent);
+  }
+  for (const CoveredDays& covered : report.covered) {
+    text += fmt::format(" {} on {}: {:.1f} % of the energy.",
+                        covered.frost ? "Covered in the cold, by snow or ice most likely,"
+                                      : "Covered or in shade for most of the day",
+                        DaysText(covered.days_s), covered.lost_percent);
+  }
+  return text;
+}
+
 }  // namespace
+
+std::string ReasonText(const TrendReason& reason) {
+  const std::string first = std::isfinite(reason.first_s) ? DateText(reason.first_s) : "";
+  const std::string last = std::isfinite(reason.last_s) ? DateText(reason.last_s) : "";
+  return fmt::format("{}{}{}{}{}: {}", Plural(reason.rows, "measurement"),
+                     first.empty() ? "" : ", ", first, first == last ? "" : " to ",
+                     first == last ? "" : last, reason.reason);
+}
+
+std::string DaysText(const std::vector<double>& days_s) {
+  constexpr double kNext = 1.7;  // days between means of neighbouring days, at most
+  std::string text;
+  for (std::size_t begin = 0; begin < days_s.size();) {
+    std::size_t end = begin + 1;
+    while (end < days_s.size() && days_s[end] - days_s[end - 1] < kNext * kDay_s) ++end;
+    if (!text.empty()) text += ", ";
+    text += DateText(days_s[begin]);
+    if (end > begin + 1) text += " to " + DateText(days_s[end - 1]);
+    begin = end;
+  }
+  return text;
+}
+
+bool IsBelowAYear(const TrendReport& report) {
+  return report.last_s - report.first_s < kLeastForRate_days * kDay_s;
+}
+
+std::string ExchangeWarning(const ExchangedDevice& exchange) {
+  std::string changed;
+  for (const std::string& one : exchange.changed) {
+    changed += (changed.empty() ? "" : ", ") + one;
+  }
+  return fmt::format(
+      "From {} on the measurements are of another device, or this one was repaired: at once {}. "
+      "What follows is of the days before. Give each device a file of its own.",
+      DateText(exchange.time_s), changed);
+}
 
 std::string PartTitle(const std::string& part) {
   if (part == "resistance_series") return "series resistance";
@@ -60,8 +157,9 @@ std::string PartTitle(const std::string& part) {
   return part;
 }
 
-std::string VerdictOf(const TrendReport& report, double least_irradiance_W_m2) {
-  return PowerVerdict(report, least_irradiance_W_m2) + OnsetVerdict(report);
+std::string VerdictOf(const TrendReport& report, const TrendOptions& options) {
+  return DoubtVerdict(report) + PowerVerdict(report, options) + SkyVerdict(report) +
+         OnsetVerdict(report);
 }
 
 std::vector<std::string> NotDecided(const TrendReport& report) {

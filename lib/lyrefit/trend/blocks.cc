@@ -287,6 +287,7 @@ TrendBlocks WithLosses(TrendBlocks blocks, int threads) {
 
 std::vector<CoveredDays> FindCoveredDays(const TrendBlocks& blocks) {
   constexpr double kMost = 0.5;  // of the rows of a day
+  constexpr double kPart = 0.1;  // of the power, lost by mismatch
   constexpr double kFrost_C = 5;
   if (blocks.length_s != kDay_s) return {};
   std::vector<int> covered(blocks.size(), 0);
@@ -294,7 +295,9 @@ std::vector<CoveredDays> FindCoveredDays(const TrendBlocks& blocks) {
   for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
     const TrendRow& row = blocks.rows[i];
     const int b = blocks.block[i];
-    covered[b] += row.covered ? 1 : 0;
+    const bool on_a_part =
+        row.lost_substrings == 0 && row.parts_W[kPartMismatch] > kPart * row.expected_W;
+    covered[b] += row.covered || on_a_part ? 1 : 0;
     coldest[b] = std::min(coldest[b], row.temperature_C);
   }
   CoveredDays cold{true, {}, 0}, warm{false, {}, 0};

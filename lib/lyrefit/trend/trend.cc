@@ -126,7 +126,8 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
   report.dull_sky_percent = DullSkyPercent(blocks);
   report.quantities = std::move(found.quantities);
   if (const auto exchange = FindExchange(blocks, report)) {
-    const TrendSeries first = Until(series, exchange->time_s);
+    const double begin_s = blocks.length_s * std::floor(exchange->time_s / blocks.length_s);
+    const TrendSeries first = Until(series, begin_s);
     if (auto of_first = FindTrend(first, options, observer)) {
       of_first->warnings.push_back(ExchangeWarning(*exchange));
       of_first->verdict = of_first->warnings.back() + " " + of_first->verdict;

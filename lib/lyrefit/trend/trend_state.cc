@@ -1,18 +1,24 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "lyrefit/base/append_log.h"
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/trend/blocks.h"
 #include "lyrefit/trend/read_trend.h"
 #include "lyrefit/trend/trend_device.h"
@@ -23,9 +29,14 @@ namespace {
 using StateJson = nlohmann::ordered_json;
 
 constexpr char kStateBegin[] = "{\"lyrefit_trend\"";
-constexpr LogKind kStateKind = {"state of a trend", "this state", "the state of a trend",
-                                kStateBegin, "expected the state of a trend, found another file"};
-constexpr int kStateFormat = 1;
+constexpr LogKind kStateKind = {"state of a trend",
+                                "this state",
+                                "the state of a trend",
+                                kStateBegin,
+                                "expected the state of a trend, found another file",
+                                "begin another state"};
+// {"lyrefit_trend":2, ...}. Format 1 has neither checksums nor the time from which its law is.
+constexpr int kStateFormat = 2;
 
 StateJson NumberJson(double value) { return std::isfinite(value) ? StateJson(value) : StateJson(); }
 
@@ -33,13 +44,10 @@ double NumberOf(const nlohmann::json& json) {
   return json.is_number() ? json.get<double>() : kUnknown;
 }
 
-StateJson HeadOfSeries(const TrendSeries& series) {
+// What makes a law: of what it is, and its numbers.
+StateJson LawOf(const TrendSeries& series) {
   const TrendDevice& device = *series.device;
-  return {{"lyrefit_trend", kStateFormat},
-          {"version", Version()},
-          {"name", series.name},
-          {"source", ToText(series.source)},
-          {"law", series.law},
+  return {{"source", ToText(series.source)},
           {"cells_in_series", device.cells_in_series},
           {"substrings", device.substrings},
           {"n", device.n},
@@ -53,15 +61,26 @@ StateJson HeadOfSeries(const TrendSeries& series) {
           {"conductance_shunt", device.shunt_conductance_S}};
 }
 
+std::string HeadLine(const TrendSeries& series) {
+  StateJson head = {{"lyrefit_trend", kStateFormat},
+                    {"version", Version()},
+                    {"name", series.name},
+                    {"law", series.law},
+                    {"law_from", NumberJson(series.law_from_s)}};
+  head.update(LawOf(series));
+  return head.dump(-1, ' ', false, StateJson::error_handler_t::replace) + "\n";
+}
+
 tl::unexpected<Error> RefuseHead(const char* expected, const char* key, const std::string& path) {
   return Fail(fmt::format("expected {} in \"{}\"", expected, key), path, 1);
 }
 
 Expected<TrendSeries> SeriesOfHead(const std::string& line, const std::string& path) {
   const nlohmann::json head = nlohmann::json::parse(line, nullptr, false);
-  if (!head.is_object() || !head.contains("lyrefit_trend") ||
-      head["lyrefit_trend"] != kStateFormat) {
-    return Fail("expected the state of a trend of format 1, found another one", path, 1);
+  const auto found_format = head.is_object() ? head.find("lyrefit_trend") : head.end();
+  const double format = found_format == head.end() ? 0 : NumberOf(*found_format);
+  if (format != 1 && format != kStateFormat) {
+    return Fail("expected the state of a trend of format 1 or 2, found another one", path, 1);
   }
   TrendSeries series;
   TrendDevice device;
@@ -99,6 +118,7 @@ Expected<TrendSeries> SeriesOfHead(const std::string& line, const std::string& p
     if (found == head.end() || !found->is_number()) return RefuseHead("a number", key, path);
     *value = found->get<double>();
   }
+  if (head.contains("law_from")) series.law_from_s = NumberOf(head["law_from"]);
   series.device = std::make_shared<const TrendDevice>(device);
   return series;
 }
@@ -148,63 +168,147 @@ Expected<TrendRow> RowOfLine(const std::string& text, const std::string& path, i
   return row;
 }
 
+// Rows of a state, one for each time. A row without an answer gives way to a later one of its time.
+class RowsByTime {
+ public:
+  // Whether the row counts; else there is one already.
+  bool Take(TrendRow row) {
+    if (!std::isfinite(row.time_s)) {
+      if (!untimed_.insert(row.reason).second) return false;
+    } else if (const auto [found, is_new] = at_.try_emplace(row.time_s, rows_.size()); !is_new) {
+      TrendRow& before = rows_[found->second];
+      if (row.state == TrendRowState::kUnusable || before.state != TrendRowState::kUnusable) {
+        return false;
+      }
+      before = std::move(row);
+      return true;
+    }
+    rows_.push_back(std::move(row));
+    return true;
+  }
+  std::vector<TrendRow>& rows() { return rows_; }
+
+ private:
+  std::vector<TrendRow> rows_;
+  std::map<double, std::size_t> at_;  // time
+  std::set<std::string> untimed_;     // their reasons
+};
+
+// A state as its lines come.
+struct TakenState {
+  TrendSeries head;
+  RowsByTime rows;
+
+  Expected<void> Take(const std::string& line, const std::string& path, int number) {
+    if (number == 1) {
+      TRY(head, SeriesOfHead(line, path));
+      return {};
+    }
+    TRY(TrendRow row, RowOfLine(line, path, number));
+    rows.Take(std::move(row));
+    return {};
+  }
+
+  // The time from which the law is; that of the first row if an older program did not write it.
+  double LawFrom() {
+    if (std::isfinite(head.law_from_s) || !IsLawOfSweeps(head.law)) return head.law_from_s;
+    double first = kInfinity;
+    for (const TrendRow& row : rows.rows()) {
+      if (CountsInBlocks(row)) first = std::min(first, row.time_s);
+    }
+    return first;
+  }
+};
+
+std::string DeviceText(const TrendDevice& device) {
+  return fmt::format("{} cells and {} substrings", device.cells_in_series, device.substrings);
+}
+
+// Rows of an earlier day would be the reference of the report, but not of the law.
+Expected<void> CheckNoneIsBefore(double law_from_s, const std::vector<TrendRow>& rows,
+                                 const std::string& path) {
+  if (!std::isfinite(law_from_s)) return {};
+  const double day_s = std::floor(law_from_s / kDay_s) * kDay_s;
+  for (const TrendRow& row : rows) {
+    if (!CountsInBlocks(row) || row.time_s >= day_s) continue;
+    return Fail(
+        fmt::format("a measurement of {} is older than the sweeps that the law of this state "
+                    "is of, from {} on: begin another state with the oldest ones, or by the "
+                    "law of a module",
+                    DateText(row.time_s), DateText(law_from_s)),
+        path);
+  }
+  return {};
+}
+
 }  // namespace
 
-std::string LawText(const TrendSeries& series) {
-  return HeadOfSeries(series).dump(-1, ' ', false, StateJson::error_handler_t::replace);
+std::string LawText(const TrendSeries& series) { return LawOf(series).dump(); }
+
+Expected<void> CheckSameLaw(const TrendSeries& state, const TrendSeries& other,
+                            const std::string& path) {
+  if (LawText(state) == LawText(other)) return {};
+  if (state.source != other.source) {
+    return Fail(fmt::format("this state is of {}, these measurements are {}", ToText(state.source),
+                            ToText(other.source)),
+                path, 1);
+  }
+  const std::string own = DeviceText(*state.device), its = DeviceText(*other.device);
+  return Fail(
+      fmt::format("this state follows a device by another law ({}{}): begin another one, or "
+                  "append by the law that it has",
+                  state.law, own == its ? "" : fmt::format(": {}, not {}", own, its)),
+      path, 1);
 }
 
 bool IsTrendState(const std::string& path) {
+  if (IsStream(path)) return false;  // opening a pipe would wait for its writer
   std::ifstream in(path, std::ios::binary);
   std::string begin(sizeof kStateBegin - 1, '\0');
   return in.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kStateBegin;
 }
 
-Expected<TrendSeries> ReadTrendStateHead(const std::string& path) {
+Expected<std::optional<TrendSeries>> ReadTrendStateHead(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return std::nullopt;
   TRY(LogReader log, LogReader::Open(path, kStateKind));
   TRY(const auto head, log.Next());
-  if (!head) return Fail("expected the state of a trend, found an empty file", path);
+  if (!head) return std::nullopt;
   return SeriesOfHead(*head, path);
 }
 
 Expected<TrendSeries> ReadTrendState(const std::string& path) {
   TRY(LogReader log, LogReader::Open(path, kStateKind));
-  TRY(const auto head, log.Next());
-  if (!head) return Fail("expected the state of a trend, found an empty file", path);
-  TRY(TrendSeries series, SeriesOfHead(*head, path));
+  TakenState state;
   while (true) {
+    if (StoppableReads::Stopped()) return FailAsStopped(path);
     TRY(const auto line, log.Next());
-    if (!line) return series;
-    TRY(TrendRow row, RowOfLine(*line, path, log.line()));
-    series.rows.push_back(std::move(row));
+    if (!line) break;
+    TRY(state.Take(*line, path, log.line()));
   }
+  if (log.line() == 0 || state.head.device == nullptr) {
+    return Fail(log.torn() ? "the state is cut within its first line: remove it"
+                           : "expected the state of a trend, found an empty file",
+                path);
+  }
+  state.head.law_from_s = state.LawFrom();
+  state.head.rows = std::move(state.rows.rows());
+  return std::move(state.head);
 }
 
 Expected<std::int64_t> AppendTrendState(const std::string& path, const TrendSeries& series) {
   TRY(const auto log, AppendLog::Open(path, kStateKind));
-  const std::string head = LawText(series);
-  std::set<double> times;
+  TakenState state;
   TRY(log->TakeUp([&](const std::string& line, int number) -> Expected<void> {
-    if (number == 1) {
-      if (line == head) return {};
-      return Fail(
-          "this state follows a device by another law: begin another one, or append by the "
-          "law that it has",
-          path, 1);
-    }
-    // The time is the first number of a line: [1741775400.0,...
-    char* end = nullptr;
-    const double time = std::strtod(line.c_str() + 1, &end);
-    if (line.empty() || line.front() != '[') {
-      return Fail("this line is no row of a trend, the file is damaged", path, number);
-    }
-    if (end != line.c_str() + 1) times.insert(time);
-    return {};
+    TRY(state.Take(line, path, number));
+    return number == 1 ? CheckSameLaw(state.head, series, path) : Expected<void>();
   }));
-  std::string lines = log->empty() ? head + "\n" : "";
+  const bool is_new = log->empty();
+  TRY(CheckNoneIsBefore(is_new ? series.law_from_s : state.LawFrom(), series.rows, path));
+  std::string lines = is_new ? HeadLine(series) : "";
   std::int64_t written = 0;
   for (const TrendRow& row : series.rows) {
-    if (std::isfinite(row.time_s) && !times.insert(row.time_s).second) continue;
+    if (!state.rows.Take(row)) continue;
     lines += LineOfRow(row);
     ++written;
   }

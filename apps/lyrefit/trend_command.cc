@@ -37,7 +37,7 @@ constexpr char kTrendFooter[] =
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 130 stopped by Ctrl-C (the sweeps read so far "
     "are\n"
-    "judged, or appended).";
+    "judged, if that takes no second, or appended).";
 
 struct TrendRequest {
   std::vector<std::string> inputs;
@@ -185,7 +185,8 @@ Expected<int> RunTrend(VerbLine& verb, TrendRequest& request) {
     return AppendToState(verb, request);
   }
   TRY(const TrendSeries series, ReadSeries(request));
-  if (!series.interrupted) EndOnSignals();  // a trend has no part that is worth keeping
+  // No part of a trend is worth keeping.
+  series.interrupted ? EndWithinASecond() : EndOnSignals();
   TRY(const TrendReport report, FindTrend(series, request.options, TerminalObserver()));
   const ReportFlags& output = request.output;
   TRY(WriteWanted(output.json_file, [&] { return TrendJson(report); }));

@@ -205,8 +205,7 @@ TEST_F(SealedLogTest, LeavesOneThatWasBegunWithoutChecksumsWithoutThem) {
   folder_.Write("ledger", "{\"ledger\":1}\n[1]\n");
   Append("[2]\n");
   EXPECT_EQ(FileText(path_), "{\"ledger\":1}\n[1]\n[2]\n");
-  EXPECT_THAT(MessageOf(LinesOf("{\"ledger\":1}\n[1,\"0123abcd\"]\n")),
-              HasSubstr("ledger:2: the checksum"));
+  ExpectErrorAt(LinesOf("{\"ledger\":1}\n[1,\"0123abcd\"]\n"), path_, 2, 0, "the checksum");
 }
 
 TEST_F(SealedLogTest, DoesNotWaitForThePipe) {

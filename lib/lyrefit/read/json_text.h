@@ -39,7 +39,7 @@ class JsonFields {
   // name.
   const nlohmann::json* Find(std::initializer_list<const char*> keys, std::string* key) const;
 
-  // Value of a key; nullopt if missing, an error if of another type.
+  // Value of a key; nullopt if missing, an error if of another type or as large as an overflow code.
   Expected<std::optional<double>> Number(std::initializer_list<const char*> keys) const;
   Expected<std::optional<int>> WholeNumber(std::initializer_list<const char*> keys) const;
   Expected<std::optional<std::string>> Text(const char* key) const;

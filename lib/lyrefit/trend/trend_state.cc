@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "lyrefit/base/append_log.h"
@@ -168,55 +170,67 @@ Expected<TrendRow> RowOfLine(const std::string& text, const std::string& path, i
   return row;
 }
 
-// Rows of a state, one for each time. A row without an answer gives way to a later one of its time.
-class RowsByTime {
+// Places of the rows of a state, one for each time. A row without an answer, which has a reason, gives
+// way to a later one of its time.
+class RowPlaces {
  public:
-  // Whether the row counts; else there is one already.
-  bool Take(TrendRow row) {
-    if (!std::isfinite(row.time_s)) {
-      if (!untimed_.insert(row.reason).second) return false;
-    } else if (const auto [found, is_new] = at_.try_emplace(row.time_s, rows_.size()); !is_new) {
-      TrendRow& before = rows_[found->second];
-      if (row.state == TrendRowState::kUnusable || before.state != TrendRowState::kUnusable) {
-        return false;
-      }
-      before = std::move(row);
-      return true;
+  // Where the row goes: after the others, or in place of one; empty: there is one already.
+  std::optional<std::size_t> Take(double time_s, bool answered, const std::string& reason) {
+    if (!std::isfinite(time_s)) {
+      return untimed_.insert(reason).second ? std::optional(count_++) : std::nullopt;
     }
-    rows_.push_back(std::move(row));
-    return true;
+    const auto [found, is_new] = at_.try_emplace(time_s, Place{count_, answered});
+    if (is_new) return count_++;
+    if (!answered || found->second.answered) return std::nullopt;
+    found->second.answered = true;
+    return found->second.place;
   }
-  std::vector<TrendRow>& rows() { return rows_; }
+  std::optional<std::size_t> Take(const TrendRow& row) {
+    return Take(row.time_s, row.reason.empty(), row.reason);
+  }
 
  private:
-  std::vector<TrendRow> rows_;
-  std::map<double, std::size_t> at_;  // time
-  std::set<std::string> untimed_;     // their reasons
+  struct Place {
+    std::size_t place;
+    bool answered;
+  };
+
+  std::unordered_map<double, Place> at_;  // by time
+  std::set<std::string> untimed_;         // reasons of rows without a time
+  std::size_t count_ = 0;
 };
 
-// A state as its lines come.
-struct TakenState {
-  TrendSeries head;
-  RowsByTime rows;
+// The time from which the law of a state is; `first_s`, that of its first row with an answer, if an
+// older program did not write it.
+double LawFrom(const TrendSeries& head, double first_s) {
+  const bool unknown = !std::isfinite(head.law_from_s) && IsLawOfSweeps(head.law);
+  return unknown ? first_s : head.law_from_s;
+}
+
+// The rows of a state that is appended to. Only what is asked of them is read.
+struct KnownRows {
+  RowPlaces places;
+  double first_s = kInfinity;  // of those with an answer
 
   Expected<void> Take(const std::string& line, const std::string& path, int number) {
-    if (number == 1) {
-      TRY(head, SeriesOfHead(line, path));
-      return {};
+    if (line.empty() || line.front() != '[') {
+      return Fail("this line is no row of a trend, the file is damaged", path, number);
     }
-    TRY(TrendRow row, RowOfLine(line, path, number));
-    rows.Take(std::move(row));
+    // [1741775400.0, ..., reason]
+    constexpr std::string_view kNoReason = ",\"\"]";
+    char* end = nullptr;
+    const double time_s = std::strtod(line.c_str() + 1, &end);
+    const bool answered =
+        line.size() > kNoReason.size() &&
+        line.compare(line.size() - kNoReason.size(), std::string::npos, kNoReason) == 0;
+    if (end == line.c_str() + 1) {
+      TRY(const TrendRow row, RowOfLine(line, path, number));
+      places.Take(row);
+    } else {
+      places.Take(time_s, answered, "");
+      if (answered) first_s = std::min(first_s, time_s);
+    }
     return {};
-  }
-
-  // The time from which the law is; that of the first row if an older program did not write it.
-  double LawFrom() {
-    if (std::isfinite(head.law_from_s) || !IsLawOfSweeps(head.law)) return head.law_from_s;
-    double first = kInfinity;
-    for (const TrendRow& row : rows.rows()) {
-      if (CountsInBlocks(row)) first = std::min(first, row.time_s);
-    }
-    return first;
   }
 };
 
@@ -279,36 +293,47 @@ Expected<std::optional<TrendSeries>> ReadTrendStateHead(const std::string& path)
 
 Expected<TrendSeries> ReadTrendState(const std::string& path) {
   TRY(LogReader log, LogReader::Open(path, kStateKind));
-  TakenState state;
+  TrendSeries series;
+  RowPlaces places;
+  double first_s = kInfinity;
   while (true) {
     if (StoppableReads::Stopped()) return FailAsStopped(path);
     TRY(const auto line, log.Next());
     if (!line) break;
-    TRY(state.Take(*line, path, log.line()));
+    if (log.line() == 1) {
+      TRY(series, SeriesOfHead(*line, path));
+      continue;
+    }
+    TRY(TrendRow row, RowOfLine(*line, path, log.line()));
+    if (row.reason.empty()) first_s = std::min(first_s, row.time_s);
+    const auto place = places.Take(row);
+    if (!place) continue;
+    if (*place == series.rows.size()) series.rows.emplace_back();
+    series.rows[*place] = std::move(row);
   }
-  if (log.line() == 0 || state.head.device == nullptr) {
+  if (series.device == nullptr) {
     return Fail(log.torn() ? "the state is cut within its first line: remove it"
                            : "expected the state of a trend, found an empty file",
                 path);
   }
-  state.head.law_from_s = state.LawFrom();
-  state.head.rows = std::move(state.rows.rows());
-  return std::move(state.head);
+  series.law_from_s = LawFrom(series, first_s);
+  return series;
 }
 
 Expected<std::int64_t> AppendTrendState(const std::string& path, const TrendSeries& series) {
   TRY(const auto log, AppendLog::Open(path, kStateKind));
-  TakenState state;
+  TrendSeries head = series;
+  KnownRows known;
   TRY(log->TakeUp([&](const std::string& line, int number) -> Expected<void> {
-    TRY(state.Take(line, path, number));
-    return number == 1 ? CheckSameLaw(state.head, series, path) : Expected<void>();
+    if (number > 1) return known.Take(line, path, number);
+    TRY(head, SeriesOfHead(line, path));
+    return CheckSameLaw(head, series, path);
   }));
-  const bool is_new = log->empty();
-  TRY(CheckNoneIsBefore(is_new ? series.law_from_s : state.LawFrom(), series.rows, path));
-  std::string lines = is_new ? HeadLine(series) : "";
+  TRY(CheckNoneIsBefore(LawFrom(head, known.first_s), series.rows, path));
+  std::string lines = log->empty() ? HeadLine(series) : "";
   std::int64_t written = 0;
   for (const TrendRow& row : series.rows) {
-    if (!state.rows.Take(row)) continue;
+    if (!known.places.Take(row)) continue;
     lines += LineOfRow(row);
     ++written;
   }

@@ -121,6 +121,7 @@ Expected<BatchTaskType> MakeFieldTest(const VerbLine& /*verb*/, const BatchReque
     TRY(ReadCoefficients(request.coefficients_file, &options.coefficients));
   }
   if (!request.module_file.empty()) TRY(ReadModule(request.module_file, &options));
+  TRY(ValidateTranslateOptions(options));  // also what the files state
   return FieldTestTask(options);
 }
 

@@ -1,6 +1,7 @@
 #include <string>
 #include <vector>
 
+#include "effect_text.h"
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
@@ -81,6 +82,7 @@ Expected<int> RunTranslate(VerbLine& verb, TranslateRequest& request) {
     return PrintInspections({request.curve.file}, request.curve.reading);
   TRY(verb.CheckFiles());
   TranslateOptions& options = request.options;
+  TRY(CheckEffects("--effects", options.diagnosis.effects));
   ShareSeedAndThreads(&options);
   if (!request.coefficients_file.empty()) {
     TRY(ReadCoefficients(request.coefficients_file, &options.coefficients));

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <tuple>
 
 #include "flags.h"
 #include "interrupt.h"
@@ -14,6 +17,7 @@
 #include "lyrefit/report/plots.h"
 #include "lyrefit/trend/read_trend.h"
 #include "lyrefit/trend/trend.h"
+#include "lyrefit/trend/trend_device.h"
 #include "lyrefit/trend/trend_documents.h"
 #include "verbs.h"
 
@@ -33,7 +37,7 @@ constexpr char kTrendFooter[] =
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 130 stopped by Ctrl-C (the sweeps read so far "
     "are\n"
-    "judged, or appended).";
+    "judged, if that takes no second, or appended).";
 
 struct TrendRequest {
   std::vector<std::string> inputs;
@@ -60,7 +64,7 @@ void DeclareTrend(VerbLine* verb, TrendRequest* request) {
   verb->AddOption("--append", &request->state_file,
                   "append the sweeps to the state in this file and say what they show, without a "
                   "report")
-      .Type("FILE");
+      .Writes();
   AddTableFlags(verb, kTrendOptionTable, &request->options);
   AddTableFlags(verb, kReadOptionTable, &request->reading.reading);
   AddTableFlags(verb, kConditionOptionTable, &request->conditions);
@@ -89,12 +93,35 @@ Expected<TrendSeries> ReadMeasurements(const TrendRequest& request,
   return ReadTrend(request.inputs, reading, request.options, TerminalObserver());
 }
 
-Expected<TrendSeries> ReadSeries(const TrendRequest& request) {
-  if (request.inputs.size() == 1 && IsTrendState(request.inputs.front())) {
-    return ReadTrendState(request.inputs.front());
+// A state has a law of its own: what the flags say of the device must be that.
+Expected<void> CheckAgainstState(const TrendRequest& request, const TrendReadOptions& reading,
+                                 const TrendSeries& state, const std::string& path) {
+  const ConditionOptions& said = request.conditions;
+  const TrendDevice& device = *state.device;
+  for (const auto& [flag, given, own] :
+       {std::tuple{"--cells", said.cells, device.cells_in_series},
+        {"--bypass-diodes", said.bypass_diodes, device.substrings}}) {
+    if (!given || *given == own) continue;
+    return Fail(fmt::format("{} {}: the law of this state has {}", flag, *given, own), path, 1);
   }
+  TrendSeries now = reading.law.value_or(state);
+  TrendDevice its = *now.device;
+  its.substrings = device.substrings;
+  now.device = std::make_shared<const TrendDevice>(its);
+  now.source = request.operating ? TrendSource::kOperatingPoints : TrendSource::kSweeps;
+  return CheckSameLaw(state, now, path);
+}
+
+Expected<TrendSeries> ReadSeries(const TrendRequest& request) {
   TRY(const TrendReadOptions reading, ReadingOf(request));
-  return ReadMeasurements(request, reading);
+  const std::string& first = request.inputs.front();
+  if (request.inputs.size() > 1 || !IsTrendState(first)) return ReadMeasurements(request, reading);
+  TRY(TrendSeries series, ReadTrendState(first));
+  if (reading.law || request.operating || request.conditions.cells ||
+      request.conditions.bypass_diodes) {
+    TRY(CheckAgainstState(request, reading, series, first));
+  }
+  return series;
 }
 
 // What one measurement shows, in a line.
@@ -113,11 +140,22 @@ std::string RowText(const TrendRow& row) {
   return text + "\n";
 }
 
+// How many measurements are unusable, and the reason of the first.
+std::string UnusableText(const std::vector<TrendRow>& rows) {
+  const auto unusable = [](const TrendRow& row) { return row.state == TrendRowState::kUnusable; };
+  const auto first = std::find_if(rows.begin(), rows.end(), unusable);
+  if (first == rows.end()) return {};
+  return fmt::format("{} of them unusable, the first: {}\n",
+                     std::count_if(first, rows.end(), unusable), first->reason);
+}
+
 Expected<int> AppendToState(VerbLine& verb, const TrendRequest& request) {
   TrendSeries series;
-  if (IsTrendState(request.state_file)) {
+  TRY(auto state, ReadTrendStateHead(request.state_file));
+  if (state) {
     TRY(TrendReadOptions reading, ReadingOf(request));
-    TRY(reading.law, ReadTrendStateHead(request.state_file));
+    TRY(CheckAgainstState(request, reading, *state, request.state_file));
+    reading.law = std::move(state);
     TRY(series, ReadMeasurements(request, reading));
   } else {
     TRY(series, ReadSeries(request));
@@ -129,6 +167,7 @@ Expected<int> AppendToState(VerbLine& verb, const TrendRequest& request) {
     for (const TrendRow& row : series.rows) text += RowText(row);
   }
   text += fmt::format("{} of {} appended to {}\n", written, series.rows.size(), request.state_file);
+  if (series.rows.size() > kShown) text += UnusableText(series.rows);
   TRY(WriteText(verb, [&] { return text; }));
   return series.interrupted ? kExitInterrupted : kExitFine;
 }
@@ -137,8 +176,17 @@ Expected<int> RunTrend(VerbLine& verb, TrendRequest& request) {
   if (request.inputs.empty()) return Fail("SWEEPS is required: the measurements of a device");
   TRY(verb.CheckFiles());
   const InterruptGuard guard;
-  if (!request.state_file.empty()) return AppendToState(verb, request);
+  if (!request.state_file.empty()) {
+    const ReportFlags& files = request.output;
+    if (!(files.json_file + files.csv_file + files.plot_file + files.html_file).empty()) {
+      return Fail("--append writes no report: ask the state for it, lyrefit trend " +
+                  request.state_file);
+    }
+    return AppendToState(verb, request);
+  }
   TRY(const TrendSeries series, ReadSeries(request));
+  // No part of a trend is worth keeping.
+  series.interrupted ? EndWithinASecond() : EndOnSignals();
   TRY(const TrendReport report, FindTrend(series, request.options, TerminalObserver()));
   const ReportFlags& output = request.output;
   TRY(WriteWanted(output.json_file, [&] { return TrendJson(report); }));

@@ -10,9 +10,11 @@
 #include <string_view>
 #include <utility>
 
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/read/json_text.h"
 #include "lyrefit/read/spreadsheet_text.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/translate/device_coefficients.h"
@@ -148,16 +150,18 @@ Expected<void> ReadEarlierSchema(const std::string& path, EarlierResults* result
   const bool run =
       schema.is_object() && schema.contains("lyrefit") && schema["lyrefit"].is_object();
   if (!run) return Fail("expected the schema of results", path);
-  const std::string task = schema["lyrefit"].value("task", "");
-  if (task != kEarlierTask) {
-    return Fail(fmt::format("expected results of batch --task {}, found those of --task {}",
-                            kEarlierTask, task),
-                path);
-  }
-  results->version = schema["lyrefit"].value("version", "unknown");
-  results->options = schema["lyrefit"].value("options", BatchJson::object());
-  results->options_place = path;
-  return {};
+  return WithoutTypeErrors(path, [&]() -> Expected<void> {
+    const std::string task = schema["lyrefit"].value("task", "");
+    if (task != kEarlierTask) {
+      return Fail(fmt::format("expected results of batch --task {}, found those of --task {}",
+                              kEarlierTask, task),
+                  path);
+    }
+    results->version = schema["lyrefit"].value("version", "unknown");
+    results->options = schema["lyrefit"].value("options", BatchJson::object());
+    results->options_place = path;
+    return {};
+  });
 }
 
 // The file of rows in a folder.
@@ -180,6 +184,9 @@ bool IsOfSweep(const std::string& about) { return about == "sweep" || about == "
 
 Expected<EarlierResults> ReadEarlierResults(const std::string& path) {
   TRY(const fs::path rows, FileOfRows(path));
+  if (IsStream(rows.string())) {  // opening a pipe would wait for its writer
+    return Fail("expected the results of an earlier run, found a pipe or a device", rows.string());
+  }
   EarlierResults results;
   TRY(ReadEarlierSchema((rows.parent_path() / "results.schema.json").string(), &results));
   std::ifstream file(rows);
@@ -194,17 +201,19 @@ Expected<EarlierResults> ReadEarlierResults(const std::string& path) {
 Expected<void> CheckSameCoefficients(const EarlierResults& earlier, const BatchJson& options) {
   if (earlier.options_place.empty()) return {};
   const auto spoken = [](const std::string& text) { return text.empty() ? "none" : text; };
-  for (const OptionRow<StatedCoefficients>& row : kCoefficientTable) {
-    if (row.IsHeading()) continue;
-    const std::string then = earlier.options.value(row.name, std::string());
-    const std::string now = options.value(row.name, std::string());
-    if (then == now) continue;
-    return Fail(fmt::format("the earlier figures were made with {} {}, these are with {}: their "
-                            "difference would look like a change. Do one of the runs again",
-                            row.name, spoken(then), spoken(now)),
-                earlier.options_place);
-  }
-  return {};
+  return WithoutTypeErrors(earlier.options_place, [&]() -> Expected<void> {
+    for (const OptionRow<StatedCoefficients>& row : kCoefficientTable) {
+      if (row.IsHeading()) continue;
+      const std::string then = earlier.options.value(row.name, std::string());
+      const std::string now = options.value(row.name, std::string());
+      if (then == now) continue;
+      return Fail(fmt::format("the earlier figures were made with {} {}, these are with {}: their "
+                              "difference would look like a change. Do one of the runs again",
+                              row.name, spoken(then), spoken(now)),
+                  earlier.options_place);
+    }
+    return {};
+  });
 }
 
 std::string EarlierText(const EarlierResults& earlier) {

@@ -13,6 +13,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/row_text.h"
 #include "lyrefit/batch/write_results.h"
+#include "lyrefit/read/json_text.h"
 #include "lyrefit/report/page.h"
 #include "lyrefit/report/page_shell.h"
 #include "plant/campaign_results.h"
@@ -79,7 +80,7 @@ Expected<CampaignSummary> CampaignIn(const fs::path& folder, const BatchJson& ru
   TRY(const std::string text, ReadTextFile(path, kLargestResultsSchema));
   const BatchJson json = BatchJson::parse(text, nullptr, false);
   if (!json.is_object()) return Fail("expected the comparison of two campaigns", path);
-  return CampaignOf(json);
+  return WithoutTypeErrors(path, [&]() -> Expected<CampaignSummary> { return CampaignOf(json); });
 }
 
 // Summary of results.jsonl, read line by line.
@@ -133,7 +134,9 @@ Expected<std::int64_t> WritePlantPage(const std::string& folder, const std::stri
   TRY(content.columns, ReadColumns(schema.value("fields", BatchJson())));
   content.plant = plant;
   const BatchJson run = schema.value("lyrefit", BatchJson::object());
-  content.facts = FactsOf(run);
+  TRY(content.facts, WithoutTypeErrors(schema_file, [&]() -> Expected<std::vector<block::Field>> {
+        return FactsOf(run);
+      }));
   TRY(content.campaign, CampaignIn(folder, run));
   content.results = UrlFrom(file, folder);
   TRY(content.summary, SummaryOf((fs::path(folder) / "results.jsonl").string(), content.columns));

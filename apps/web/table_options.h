@@ -72,7 +72,7 @@ void DescribeTable(const Table& table, const Options& defaults, nlohmann::ordere
     entry["kind"] = on_off ? "switch" : IsList(row) ? "list" : number ? "number" : "text";
     entry["choices"] = ChoicesOf(row);
     if (!on_off && !IsList(row) && !usual.empty()) entry["default"] = usual.front();
-    if (number && std::isfinite(row.lower)) entry["lower"] = row.lower;
+    if (number && row.lower > -kOverflowCode) entry["lower"] = row.lower;
     if (number && row.upper < 1e12) entry["upper"] = row.upper;
     rows->push_back(std::move(entry));
   }

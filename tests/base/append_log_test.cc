@@ -2,12 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <string>
 #include <vector>
 
 #include "../error_of.h"
 #include "../file_limit.h"
+#include "lyrefit/base/try.h"
 #include "temp_folder.h"
 
 namespace lyrefit {
@@ -134,6 +136,82 @@ TEST_F(AppendLogTest, SaysWhyItCannotBeWritten) {
   }
   ASSERT_TRUE((*log)->Append("once more\n"));
   EXPECT_EQ(FileText(path_), "dear\nonce more\n");
+}
+
+constexpr LogKind kLedger = {"ledger",      "this ledger", "a ledger",
+                             "{\"ledger\"", "no ledger",   "begin another ledger"};
+
+class SealedLogTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    Append("{\"ledger\":1}\n[1,2]\n{\"a\":\"b\"}\n");
+    Append("[3]\n");
+    whole_ = FileText(path_);
+  }
+
+  void Append(const std::string& lines) const {
+    const auto log = AppendLog::Open(path_, kLedger);
+    ASSERT_TRUE(log) << MessageOf(log);
+    ASSERT_TRUE((*log)->TakeUp([](const std::string&, int) { return Expected<void>(); }));
+    ASSERT_TRUE((*log)->Append(lines));
+  }
+
+  // The lines of a ledger with this text.
+  Expected<std::vector<std::string>> LinesOf(const std::string& text) const {
+    TRY(LogReader log, LogReader::Open(folder_.Write("ledger", text), kLedger));
+    std::vector<std::string> lines;
+    while (true) {
+      TRY(const auto line, log.Next());
+      if (!line) return lines;
+      lines.push_back(*line);
+    }
+  }
+
+  const TempFolder folder_;
+  const std::string path_ = folder_.Path("ledger");
+  std::string whole_;
+};
+
+TEST_F(SealedLogTest, GivesTheLinesWithoutTheirChecksums) {
+  const auto lines = LinesOf(whole_);
+  ASSERT_TRUE(lines) << MessageOf(lines);
+  EXPECT_THAT(*lines, ElementsAre("{\"ledger\":1}", "[1,2]", "{\"a\":\"b\"}", "[3]"));
+  EXPECT_THAT(whole_, testing::ContainsRegex("^.\"ledger\":1,\"crc\":\"[0-9a-f]{8}\".\n"));
+  EXPECT_THAT(whole_, testing::ContainsRegex("\n.3,\"[0-9a-f]{8}\".\n$"));
+}
+
+TEST_F(SealedLogTest, SeesEveryByteThatWasChanged) {
+  for (std::size_t i = 0; i < whole_.size(); ++i) {
+    if (whole_[i] == '\n') continue;
+    std::string changed = whole_;
+    changed[i] = changed[i] == '7' ? '8' : '7';
+    EXPECT_FALSE(LinesOf(changed)) << i;
+  }
+}
+
+TEST_F(SealedLogTest, SeesLinesThatWereMovedLostOrRepeated) {
+  const std::size_t second = whole_.find('\n') + 1, third = whole_.find('\n', second) + 1;
+  const std::string row = whole_.substr(second, third - second);
+  const std::string rest = whole_.substr(third);
+  for (const std::string& text :
+       {whole_.substr(0, second) + rest, whole_.substr(0, third) + row + rest,
+        whole_.substr(0, second) + rest + row}) {
+    EXPECT_THAT(MessageOf(LinesOf(text)),
+                HasSubstr("a line was changed, moved or lost; begin another ledger"));
+  }
+}
+
+TEST_F(SealedLogTest, LeavesOneThatWasBegunWithoutChecksumsWithoutThem) {
+  folder_.Write("ledger", "{\"ledger\":1}\n[1]\n");
+  Append("[2]\n");
+  EXPECT_EQ(FileText(path_), "{\"ledger\":1}\n[1]\n[2]\n");
+  ExpectErrorAt(LinesOf("{\"ledger\":1}\n[1,\"0123abcd\"]\n"), path_, 2, 0, "the checksum");
+}
+
+TEST_F(SealedLogTest, DoesNotWaitForThePipe) {
+  const std::string pipe = folder_.Path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(MessageOf(LogReader::Open(pipe, kLedger)), HasSubstr("found a pipe or a device"));
 }
 
 }  // namespace

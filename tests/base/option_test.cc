@@ -112,6 +112,28 @@ TEST(OptionTable, RefusesNumbersOutsideTheirRangeWhereTheLibraryIsHeldToIt) {
   EXPECT_EQ(checked.error().message, "coats = 6 is outside [1, 5]");
 }
 
+struct Measure {
+  double length = 1;
+  std::optional<double> width;
+};
+
+constexpr OptionRow<Measure> kMeasureTable[] = {{"length", "", "", &Measure::length},
+                                                {"width", "", "", &Measure::width, 0, 10}};
+
+TEST(OptionTable, RefusesWhatIsNoNumberAndOptionalNumbersOutsideTheirRange) {
+  const auto checked = [](double length, std::optional<double> width) {
+    const auto valid = ValidateOptions(Measure{length, width}, kMeasureTable);
+    return valid ? "" : valid.error().message;
+  };
+  EXPECT_EQ(checked(-1e20, std::nullopt), "");
+  EXPECT_EQ(checked(1, 10), "");
+  EXPECT_EQ(checked(1, 11), "width = 11 is outside [0, 10]");
+  EXPECT_EQ(checked(1, kUnknown), "width = nan is outside [0, 10]");
+  EXPECT_EQ(checked(kUnknown, 1), "length = nan is outside [-1e+30, 1e+30]");
+  EXPECT_EQ(checked(kInfinity, 1), "length = inf is outside [-1e+30, 1e+30]");
+  EXPECT_EQ(checked(1e308, 1), "length = 1e+308 is outside [-1e+30, 1e+30]");
+}
+
 TEST(OptionTable, ReadsTextsAndSaysWhatItWouldHaveTaken) {
   Paint paint;
   EXPECT_TRUE(TextOf("colour").read("blue", &paint, kNoReaders));

@@ -195,7 +195,7 @@ TEST_F(Unfinished, IsNotWrittenByTwo) {
 TEST_F(Unfinished, IsLeftAloneIfDamaged) {
   part_.insert(part_.find('\n') + 1, std::string(3, '\0') + "\n");
   std::ofstream(options_.folder + "/results.part", std::ios::binary) << part_;
-  ExpectRefusal(CountTask(), "this line is no row, the file is damaged");
+  ExpectRefusal(CountTask(), "the checksum of this line is not that of what stands up to here");
 }
 
 // Root may open every file. While an object lives, a process of root runs as the user nobody.

@@ -9,6 +9,19 @@ namespace {
 
 using ::testing::HasSubstr;
 
+TEST_F(CellTaskTest, RefusesLimitsOfPixelsOutsideTheirRange) {
+  PixelOptions pixels;
+  pixels.least_jsc_mA_cm2 = kUnknown;
+  const auto done = Run({Named("s1", Substrate(5e-3))}, "out", {}, pixels);
+  ASSERT_TRUE(done) << done.error().ToString();
+  const auto rows = Lines("out/results.jsonl");
+  ASSERT_EQ(rows.size(), 4U);
+  for (const nlohmann::json& row : rows) {
+    EXPECT_EQ(row["status"], "broken");
+    EXPECT_EQ(row["reason"], "least-jsc = nan is outside [0, 100]");
+  }
+}
+
 TEST_F(CellTaskTest, APixelIsARowWithAllItsMeasurements) {
   const auto done = Run({Named("s1", Substrate(5e-3))}, "out");
   ASSERT_TRUE(done) << done.error().ToString();

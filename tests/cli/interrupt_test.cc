@@ -134,9 +134,12 @@ TEST_P(InterruptTest, KeepsTheFilesThatWereFitted) {
 }
 
 TEST_P(InterruptTest, EndsWhatWaitsForAPipe) {
-  for (const char* verb : {"fit", "certify", "translate", "diagnose", "compare", "audit"}) {
+  for (const char* verb :
+       {"fit", "certify", "translate", "diagnose", "compare", "audit", "trend"}) {
     EXPECT_EQ(OutputAtPipe({verb}), "") << verb;
   }
+  const std::string module = DataFolder("trend") + "/module.json";
+  EXPECT_EQ(OutputAtPipe({"trend", "--module", module, "--operating"}), "");
   EXPECT_EQ(OutputAtPipe({"simulate", "--from"}), "");
   EXPECT_EQ(OutputAtPipe({"fit", DataFolder("rtc_france"), "--bounds"}), "");
   for (const char* verb : {"batch", "pack"}) {
@@ -178,6 +181,23 @@ TEST(Resume, LosesNothingButTheRunUnderWayToAKill) {
   EXPECT_EQ(FileText(folder.Path("out.txt")), "");
   EXPECT_EQ(Comparison(journal), Comparison(""));
   EXPECT_THAT(FileText(journal), StartsWith(text.substr(0, text.rfind('\n'))));
+}
+
+TEST(Resume, RefusesAJournalOfWhichADigitWasChanged) {
+  const TempFolder folder;
+  const std::string journal = folder.Path("study.jsonl");
+  const std::string command = "compare '" + DataFolder("rtc_france") +
+                              "' --algorithms lo --iterations 20 --runs 2 --resume '" + journal +
+                              "'";
+  ASSERT_EQ(RunApp(command).exit_code, 0);
+  std::string text = FileText(journal);
+  const std::size_t digit = text.find('.', text.find("\"searched_A\":")) + 3;
+  text[digit] = text[digit] == '1' ? '2' : '1';
+  folder.Write("study.jsonl", text);
+  const AppResult changed = RunApp(command);
+  EXPECT_EQ(changed.exit_code, 1);
+  EXPECT_THAT(changed.err, HasSubstr("study.jsonl:2: the checksum of this line"));
+  EXPECT_EQ(FileText(journal), text);
 }
 
 TEST(Resume, RefusesAnotherStudyAndSaysWhatWasDone) {

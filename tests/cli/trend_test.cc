@@ -155,5 +155,28 @@ TEST(TrendCommand, RefusesADamagedState) {
   EXPECT_EQ(FileText(damaged), content);
 }
 
+TEST(TrendCommand, RefusesWhatAStateIsNotOf) {
+  const TempFolder folder;
+  const std::string state = "'" + folder.Path("year.state") + "'";
+  ASSERT_EQ(RunApp("trend " + kTrendYear + " --append " + state).exit_code, 0);
+  const std::string content = FileText(folder.Path("year.state"));
+  const std::string append = " --append " + state;
+  ExpectRefusals(
+      "trend ",
+      {{"--operating " + kTrendPoints + " " + kTrendModule + append, "this state is of sweeps"},
+       {kTrendYear + " " + kTrendModule + append, "follows a device by another law"},
+       {kTrendYear + " --cells 72" + append, "--cells 72: the law of this state has 60"},
+       {kTrendYear + " --bypass-diodes 6" + append, "the law of this state has 3"},
+       {state + " --cells 72", "--cells 72: the law of this state has 60"},
+       {state + " " + kTrendYear, "the state of a trend is read alone"},
+       {state + append, "this run reads the file"},
+       {state + append + " --force", "the state of a trend is read alone"},
+       {kTrendYear + append + " --json '" + folder.Path("t.json") + "'",
+        "--append writes no report"},
+       {kTrendYear + " --append ''", "--append: expected the name of a file"}});
+  EXPECT_EQ(FileText(folder.Path("year.state")), content);
+  EXPECT_EQ(RunApp("trend " + kTrendYear + " --cells 60" + append).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace lyrefit

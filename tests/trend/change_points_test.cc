@@ -65,6 +65,21 @@ TEST(FitChanges, FindsAStepWithItsDayAndSize) {
   EXPECT_GE(held, draws * 8 / 10);
 }
 
+TEST(FitChanges, FindsAStepInTwentyYears) {
+  TimeSeries series = DrawErrors({0.3, 0.3, 6}, DaysWithGaps(7300), 4);
+  for (std::size_t i = 0; i < series.days.size(); ++i) {
+    if (series.days[i] >= 5000.5) series.values[i] += 0.6;
+  }
+  const ChangingSeries found = FitChanges(series, LineDesign(series), {});
+  ASSERT_EQ(found.changes.size(), 1U);
+  EXPECT_EQ(found.changes[0].kind, ChangeKind::kStep);
+  EXPECT_LE(found.changes[0].day_low, 5020);
+  EXPECT_GE(found.changes[0].day_high, 4980);
+  EXPECT_DOUBLE_EQ(found.changes[0].p_value, 0.001);
+  const double size = found.fit.coefficients[found.changes[0].column];
+  EXPECT_NEAR(size, 0.6, 4 * std::sqrt(found.fit.covariance(2, 2)));
+}
+
 TEST(FitChanges, FindsAnOnsetWithItsDayAndRate) {
   int held = 0, onsets = 0;
   const int draws = Repeats(20);

@@ -124,22 +124,59 @@ TEST(ReadTrend, TakesTheDatesOfASet) {
   }
 }
 
-TEST(ReadTrend, RefusesASweepWithoutATimeWithItsPlace) {
+TEST(ReadTrend, CountsASweepWithoutATimeWithItsPlace) {
   const TempFolder folder;
-  std::string text = SweepsText(TenDays());
+  const std::vector<TimedSweep> sweeps = TenDays();
+  const std::string text = SweepsText(sweeps);
   const std::size_t third = text.find('\n', text.find('\n') + 1) + 1;
   const std::size_t comma = text.find(',', third);
-  const std::string path = folder.Write("a.csv", text.substr(0, third) + text.substr(comma));
-  const auto none = ReadFile(path);
-  ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().ToString(), HasSubstr("a.csv:3"));
-  EXPECT_THAT(none.error().message, HasSubstr("expected the time of the sweep"));
-  const auto other =
-      ReadFile(folder.Write("b.csv", text.substr(0, third) + "03/04/2025" + text.substr(comma)));
-  ASSERT_FALSE(other);
-  EXPECT_THAT(other.error().ToString(), HasSubstr("b.csv:3"));
-  EXPECT_THAT(other.error().message,
-              HasSubstr("expected a date such as 2025-03-12 10:30 in date, found \"03/04/2025\""));
+  for (const auto& [date, why] :
+       {std::pair{"", "expected the time of the sweep"},
+        {"03/04/2025", "expected a date such as 2025-03-12 10:30 in date, found \"03/04/2025\""}}) {
+    const auto series =
+        ReadFile(folder.Write("a.csv", text.substr(0, third) + date + text.substr(comma)));
+    ASSERT_TRUE(series) << series.error().ToString();
+    ASSERT_EQ(series->rows.size(), sweeps.size());
+    EXPECT_EQ(series->rows.back().state, TrendRowState::kUnusable);
+    EXPECT_TRUE(std::isnan(series->rows.back().time_s));
+    EXPECT_THAT(series->rows.back().reason, AllOf(HasSubstr("a.csv:3: "), HasSubstr(why)));
+  }
+}
+
+TEST(ReadTrend, RefusesSweepsOfWhichNoneHasATime) {
+  const TempFolder folder;
+  std::string text = SweepsText(TenDays());
+  text.replace(0, 4, "when");
+  const std::string path = folder.Write("a.csv", text);
+  ExpectErrorAt(ReadFile(path), path + ":2", 0, 0, "expected the time of the sweep");
+}
+
+TEST(ReadTrend, CountsASweepOfAnotherDeviceWithTheReason) {
+  const TempFolder folder;
+  std::vector<TimedSweep> sweeps = TenDays();
+  sweeps[7].curve.conditions.cells_in_series = 72;
+  const auto series = ReadFile(folder.Write("a.csv", SweepsText(sweeps)));
+  ASSERT_TRUE(series) << series.error().ToString();
+  ASSERT_EQ(series->rows.size(), sweeps.size());
+  EXPECT_EQ(series->rows.back().state, TrendRowState::kUnusable);
+  EXPECT_EQ(series->rows.back().reason, "a sweep of 72 cells in series, the law is of 60");
+}
+
+TEST(ReadTrend, RefusesAStateBesideSweeps) {
+  const TempFolder folder;
+  const std::string sweeps = folder.Write("a.csv", SweepsText(TenDays()));
+  const std::string state = folder.Path("a.state");
+  ASSERT_TRUE(AppendTrendState(state, *ReadFile(sweeps)));
+  EXPECT_THAT(MessageOf(ReadTrend({state, sweeps}, {}, TrendOptions())),
+              HasSubstr("the state of a trend is read alone"));
+}
+
+TEST(ReadTrend, RefusesSubstringsThatCannotBeEqual) {
+  const TempFolder folder;
+  std::vector<TimedSweep> sweeps = TenDays();
+  for (TimedSweep& sweep : sweeps) sweep.curve.notes.bypass_diodes = 7;
+  EXPECT_THAT(MessageOf(ReadFile(folder.Write("a.csv", SweepsText(sweeps)))),
+              HasSubstr("60 cells have no 7 equal substrings"));
 }
 
 TEST(ReadTrend, CountsSweepsThatCannotBeReadWithTheReason) {

@@ -99,31 +99,59 @@ TEST(FitTime, IsExactWithoutErrors) {
   EXPECT_TRUE(fit.covariance.allFinite());
 }
 
-TEST(Whiten, MakesIndependentColumnsOfTheErrorsItIsTold) {
-  const NoiseModel noise = {0.3, 0.7, 5};
+// Sixty days of unlike spread.
+TimeSeries UnlikeDays(const NoiseModel& noise) {
   TimeSeries series = DrawErrors(noise, DaysWithGaps(60), 0);
-  const auto n = static_cast<Eigen::Index>(series.days.size());
   series.spread.assign(series.days.size(), 1);
   for (std::size_t i = 0; i < series.spread.size(); i += 4) series.spread[i] = 3;
-  Eigen::MatrixXd covariance(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) covariance(i, j) = ErrorCovariance(noise, series, i, j);
-  }
-  const Eigen::MatrixXd white = Whiten(noise, series, Eigen::MatrixXd::Identity(n, n));
-  const Eigen::MatrixXd left = white * covariance * white.transpose() / (noise.sigma * noise.sigma);
-  EXPECT_LT((left - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), 1e-9);
+  return series;
 }
 
-TEST(ErrorCovariance, HalvesWithEachHalfLife) {
-  TimeSeries series;
-  series.days = {0, 5, 10};
-  series.spread = {1, 2, 1};
+// The covariance of the errors by its definition.
+Eigen::MatrixXd CovarianceOf(const NoiseModel& noise, const TimeSeries& series) {
+  const auto n = static_cast<Eigen::Index>(series.days.size());
+  Eigen::MatrixXd covariance(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const double apart = std::fabs(series.days[i] - series.days[j]);
+      covariance(i, j) = std::pow(noise.shared_sigma, 2) * std::exp2(-apart / noise.half_life_days);
+    }
+    covariance(i, i) += std::pow(noise.sigma, 2) * series.spread[i];
+  }
+  return covariance;
+}
+
+TEST(ErrorFilter, MakesIndependentColumnsOfTheErrorsItIsTold) {
+  const NoiseModel noise = {0.3, 0.7, 5};
+  const TimeSeries series = UnlikeDays(noise);
+  const auto n = static_cast<Eigen::Index>(series.days.size());
+  const ErrorFilter filter(noise, series);
+  const Eigen::MatrixXd white = filter.Whiten(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd left =
+      white * CovarianceOf(noise, series) * white.transpose() / (noise.sigma * noise.sigma);
+  EXPECT_LT((left - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_NEAR(filter.log_determinant(), -2 * std::log(white.diagonal().prod()), 1e-9);
+  const Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(n, -1, 3);
+  EXPECT_LT((filter.WhitenBack(values) - white.transpose() * values).cwiseAbs().maxCoeff(), 1e-12);
+  Eigen::VectorXd late = values;
+  late.head(20).setZero();
+  EXPECT_NEAR(filter.SquaredNorm(20, [&](Eigen::Index i) { return values[i]; }),
+              (white * late).squaredNorm(), 1e-10);
+}
+
+TEST(ErrorVariance, IsThatOfTheWeightedSum) {
   const NoiseModel noise = {0.3, 0.8, 5};
-  EXPECT_DOUBLE_EQ(ErrorCovariance(noise, series, 0, 0), 0.09 + 0.64);
-  EXPECT_DOUBLE_EQ(ErrorCovariance(noise, series, 1, 1), 0.18 + 0.64);
-  EXPECT_DOUBLE_EQ(ErrorCovariance(noise, series, 0, 1), 0.32);
-  EXPECT_DOUBLE_EQ(ErrorCovariance(noise, series, 2, 0), 0.16);
-  EXPECT_EQ(ErrorCovariance({0.3, 0, 0}, series, 0, 1), 0);
+  const TimeSeries series = UnlikeDays(noise);
+  std::vector<double> weights(series.days.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::sin(1.0 + i);
+  const Eigen::Map<const Eigen::VectorXd> w(weights.data(),
+                                            static_cast<Eigen::Index>(weights.size()));
+  EXPECT_NEAR(ErrorVariance(noise, series, weights), w.dot(CovarianceOf(noise, series) * w), 1e-12);
+  double alone = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    alone += 0.09 * series.spread[i] * weights[i] * weights[i];
+  }
+  EXPECT_NEAR(ErrorVariance({0.3, 0.8, 0}, series, weights), alone, 1e-12);
 }
 
 }  // namespace

@@ -155,11 +155,6 @@ Flag& Flag::Between(int least, int most) {
   return *this;
 }
 
-Flag& Flag::Between(double least, double most) {
-  impl_->option->check(CLI::Range(least, most).description(""));
-  return *this;
-}
-
 Flag& Flag::Within(double lower, double upper) {
   const auto in_range = [lower, upper](const std::string& text) {
     double value = 0;

@@ -78,7 +78,6 @@ class Flag {
   Flag& OneOf(const std::string& texts);
   // Allowed values, both ends included.
   Flag& Between(int least, int most);
-  Flag& Between(double least, double most);
   // Allowed values in the notation of an option table.
   Flag& Within(double lower, double upper);
 

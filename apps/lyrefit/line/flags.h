@@ -41,7 +41,7 @@ std::string RowHelp(const OptionRow<Options>& row, const Options& defaults) {
     const std::vector<std::string> usual = text->write(defaults);
     return usual.empty() ? help : help + " (default " + usual.front() + ")";
   }
-  const bool ranged = !row.Is(OptionTrait::kQuiet) && std::isfinite(row.lower);
+  const bool ranged = !row.Is(OptionTrait::kQuiet) && row.lower > -kOverflowCode;
   std::visit(
       [&](const auto& field) {
         if constexpr (IsNumberField<std::decay_t<decltype(field)>>::value) {
@@ -94,16 +94,12 @@ Flag AddRowFlag(VerbLine* verb, const OptionRow<Options>& row, const std::string
       Flag flag = verb->AddOption(name, &(options->*field), help);
       flag.Type(*row.unit != '\0' ? row.unit : "NUMBER");
       if (IsList(row)) flag.OneEach();
-      if (row.Is(OptionTrait::kUnchecked)) return flag;
-      if (!row.Is(OptionTrait::kQuiet)) {
-        return IsNumberField<Field>::value ? flag.Within(row.lower, row.upper) : flag;
-      }
-      if constexpr (std::is_same_v<Field, int Options::*> ||
-                    std::is_same_v<Field, std::optional<int> Options::*>) {
-        return flag.Between(static_cast<int>(row.lower), static_cast<int>(row.upper));
-      } else {
-        return flag.Between(row.lower, row.upper);
-      }
+      if constexpr (!IsNumberField<Field>::value && !IsOptionalField<Field>::value) return flag;
+      if (row.Is(OptionTrait::kUnchecked)) return flag.Within(-kOverflowCode, kOverflowCode);
+      const bool whole = std::is_same_v<Field, int Options::*> ||
+                         std::is_same_v<Field, std::optional<int> Options::*>;
+      if (!whole || !row.Is(OptionTrait::kQuiet)) return flag.Within(row.lower, row.upper);
+      return flag.Between(static_cast<int>(row.lower), static_cast<int>(row.upper));
     } else {
       LOG(FATAL) << "the row '" << row.name << "' has no flag";
     }

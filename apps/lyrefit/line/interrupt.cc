@@ -116,6 +116,11 @@ InterruptGuard::~InterruptGuard() { EndOnSignals(); }
 
 void EndOnSignals() { Catch(EndNow); }
 
+void EndWithinASecond() {
+  std::signal(SIGALRM, EndNow);
+  alarm(1);
+}
+
 bool Interrupted() { return interrupted != 0; }
 
 Observer TerminalObserver(ProgressStyle style) {

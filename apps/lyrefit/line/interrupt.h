@@ -24,6 +24,10 @@ class InterruptGuard {
 // From here on these signals end the program with exit code 130: there are no results to keep.
 void EndOnSignals();
 
+// A second from here the program ends with exit code 130, if it has not ended before: what it still
+// computes after a signal must not outlive it by more.
+void EndWithinASecond();
+
 // Whether a signal arrived during the lifetime of a guard.
 bool Interrupted();
 

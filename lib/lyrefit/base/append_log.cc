@@ -5,10 +5,12 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <boost/crc.hpp>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
 
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/try.h"
 
 namespace lyrefit {
@@ -22,13 +24,60 @@ tl::unexpected<Error> Cannot(const char* verb, const LogKind& kind, const std::s
       path);
 }
 
+// End of a line with a checksum: ,"crc":"0123abcd"} or ,"0123abcd"]
+constexpr std::string_view kSumOfObject = ",\"crc\":\"", kSumOfList = ",\"";
+constexpr std::size_t kSumDigits = 8;
+
+std::string_view SumBegin(std::string_view line) {
+  return line.back() == ']' ? kSumOfList : kSumOfObject;
+}
+
+// Where the checksum of a line begins; npos: it has none.
+std::size_t SumOf(std::string_view line) {
+  if (line.empty()) return std::string_view::npos;
+  const std::string_view begin = SumBegin(line);
+  const std::size_t size = begin.size() + kSumDigits + 2;
+  if (line.size() < size) return std::string_view::npos;
+  const std::string_view sum = line.substr(line.size() - size);
+  const std::string_view digits = sum.substr(begin.size(), kSumDigits);
+  const bool is_sum = sum.substr(0, begin.size()) == begin && sum[size - 2] == '"' &&
+                      digits.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+  return is_sum ? line.size() - size : std::string_view::npos;
+}
+
 Expected<std::ifstream> OpenToRead(const std::string& path, const LogKind& kind) {
+  // Opening a pipe would wait for its writer.
+  if (IsStream(path)) {
+    return Fail(fmt::format("expected a file with {}, found a pipe or a device", kind.one), path);
+  }
   std::ifstream in(path, std::ios::binary);
   if (!in) return Cannot("read", kind, path);
   return in;
 }
 
 }  // namespace
+
+std::uint32_t LineSums::Add(std::string_view line) {
+  boost::crc_32_type sum(remainder_);
+  sum.process_bytes(line.data(), line.size());
+  sum.process_byte('\n');
+  remainder_ = sum.get_interim_remainder();
+  return sum.checksum();
+}
+
+std::string LineSums::Seal(std::string_view line) {
+  return fmt::format("{}{}{:08x}\"{}", line.substr(0, line.size() - 1), SumBegin(line), Add(line),
+                     line.back());
+}
+
+std::optional<std::string> LineSums::Check(std::string_view line) {
+  const std::size_t begin = SumOf(line);
+  if (begin == std::string_view::npos) return std::nullopt;
+  std::string plain(line.substr(0, begin));
+  plain += line.back();
+  if (Seal(plain) != line) return std::nullopt;
+  return plain;
+}
 
 Expected<LogReader> LogReader::Open(const std::string& path, const LogKind& kind) {
   TRY(std::ifstream in, OpenToRead(path, kind));
@@ -48,7 +97,18 @@ Expected<std::optional<std::string>> LogReader::Next() {
     if (line.compare(0, length, begin.substr(0, length)) != 0) return Fail(kind_.other, path_, 1);
   }
   if (torn_) return std::nullopt;
-  return line;
+  bytes_ += static_cast<std::int64_t>(line.size()) + 1;
+  if (kind_.advice == nullptr) return line;
+  const bool has_sum = SumOf(line) != std::string_view::npos;
+  if (line_ == 1) sealed_ = has_sum;
+  if (line_ == 1 && !sealed_ && kind_.unsealed != nullptr) return Fail(kind_.unsealed, path_, 1);
+  if (!sealed_ && !has_sum) return line;
+  std::optional<std::string> plain = sums_.Check(line);
+  if (sealed_ && plain) return plain;
+  return Fail(fmt::format("the checksum of this line is not that of what stands up to here: a line "
+                          "was changed, moved or lost; {}",
+                          kind_.advice),
+              path_, line_);
 }
 
 Expected<std::optional<std::string>> LastLine(const std::string& path, const LogKind& kind) {
@@ -97,16 +157,16 @@ Expected<void> AppendLog::Lock() {
 Expected<void> AppendLog::TakeUp(
     const std::function<Expected<void>(const std::string&, int)>& take) {
   TRY(LogReader in, LogReader::Open(path_, kind_));
-  std::int64_t whole = 0;
   while (true) {
     TRY(const auto line, in.Next());
     if (!line) break;
     TRY(take(*line, in.line()));
-    whole += static_cast<std::int64_t>(line->size()) + 1;
   }
   torn_ = in.torn();
-  if (torn_) return Cut(whole);
-  end_ = whole;
+  sums_ = in.sums();
+  if (in.bytes() > 0) sealed_ = in.sealed();
+  if (torn_) return Cut(in.bytes());
+  end_ = in.bytes();
   return {};
 }
 
@@ -116,15 +176,28 @@ Expected<void> AppendLog::Cut(std::int64_t size) {
   return {};
 }
 
-Expected<void> AppendLog::Clear() { return Cut(0); }
+Expected<void> AppendLog::Clear() {
+  sums_ = LineSums();
+  sealed_ = kind_.advice != nullptr;
+  return Cut(0);
+}
 
 Expected<void> AppendLog::Append(std::string_view lines) {
-  if (!file_.Write(lines)) {
+  LineSums sums = sums_;
+  std::string text;
+  for (std::size_t begin = 0, end = 0; begin < lines.size(); begin = end + 1) {
+    end = lines.find('\n', begin);
+    const std::string_view line = lines.substr(begin, end - begin);
+    text += sealed_ ? sums.Seal(line) : std::string(line);
+    text += '\n';
+  }
+  if (!file_.Write(text)) {
     const auto failed = CannotWrite();
     (void)Cut(end_);  // if this fails too, TakeUp of the next process cuts the text off
     return failed;
   }
-  end_ += static_cast<std::int64_t>(lines.size());
+  sums_ = sums;
+  end_ += static_cast<std::int64_t>(text.size());
   return {};
 }
 

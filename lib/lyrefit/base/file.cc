@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "lyrefit/base/byte_input.h"
@@ -163,6 +164,19 @@ bool IsWrittenInPlace(const std::string& path) {
   return fs::exists(status) && !fs::is_regular_file(status);
 }
 
+// Opens a file that is written in place; -1 if that fails. A pipe has no reader yet: waits for one
+// as reads wait for a writer, so that a stop ends it.
+int OpenInPlace(const std::string& path) {
+  constexpr int kHow = O_WRONLY | O_APPEND | O_CLOEXEC;
+  if (!IsStream(path)) return ::open(path.c_str(), kHow);
+  for (;;) {
+    const int file = ::open(path.c_str(), kHow | O_NONBLOCK);
+    if (file >= 0) ::fcntl(file, F_SETFL, kHow);
+    if (file >= 0 || errno != ENXIO || StoppableReads::Stopped()) return file;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
 tl::unexpected<Error> CannotWriteFile(const std::string& path, int reason) {
   return Fail("cannot write the file: " + std::generic_category().message(reason), path);
 }
@@ -184,7 +198,7 @@ Expected<void> NewFile::Begin() {
   if (fs::is_directory(path_, error)) return Fail("expected a file, found a folder", path_);
   in_place_ = IsWrittenInPlace(path_);
   if (in_place_) {
-    file_.Reset(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+    file_.Reset(OpenInPlace(path_));
     if (file_.open()) return {};
     return Fail("cannot open the file for writing: " + std::generic_category().message(errno),
                 path_);

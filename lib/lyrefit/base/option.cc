@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/setting_text.h"
 
@@ -39,11 +41,17 @@ std::optional<std::pair<std::string, std::string>> Sides(const std::string& text
   return std::pair(text.substr(0, at), text.substr(at + 1));
 }
 
+// A number that is finite and no code of an overflow.
+std::optional<double> NumberIn(const std::string& text) {
+  const std::optional<double> value = ParseNumber(text);
+  return value && std::fabs(*value) <= kOverflowCode ? value : std::nullopt;
+}
+
 }  // namespace
 
 Expected<std::pair<std::string, double>> ReadAssignment(const std::string& text) {
   const auto sides = Sides(text, '=');
-  const std::optional<double> value = sides ? ParseNumber(sides->second) : std::nullopt;
+  const std::optional<double> value = sides ? NumberIn(sides->second) : std::nullopt;
   if (!value || sides->first.empty()) {
     return MisreadSetting("PARAMETER=VALUE such as n2=2", text);
   }
@@ -56,8 +64,8 @@ Expected<std::pair<std::string, std::pair<double, double>>> ReadRange(const std:
   if (!sides || sides->first.empty()) return MisreadSetting(kExample, text);
   const auto ends = Sides(sides->second, ':');
   if (!ends) return MisreadSetting(kExample, text);
-  const std::optional<double> lower = ParseNumber(ends->first);
-  const std::optional<double> upper = ParseNumber(ends->second);
+  const std::optional<double> lower = NumberIn(ends->first);
+  const std::optional<double> upper = NumberIn(ends->second);
   if (!lower || !upper) return MisreadSetting(kExample, text);
   return std::pair(sides->first, std::pair(*lower, *upper));
 }

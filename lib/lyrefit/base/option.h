@@ -11,6 +11,7 @@
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/public.h"
 
@@ -65,7 +66,8 @@ enum class OptionTrait : unsigned {
   kNoFlag = 1,        // no flag, or a flag that a command declares itself
   kNoEcho = 2,        // not echoed: it never changes a result, or reports state it already
   kQuiet = 4,         // the range applies to the flag only; --help does not print it
-  kUnchecked = 8,     // ValidateOptions skips the row: the code that uses the option checks it
+  kUnchecked = 8,     // ValidateOptions skips the row: the code that uses the option checks it, and
+                      // the flag takes any number that is finite
   kNoDefault = 16,    // --help prints no default
   kExperimental = 32  // may change in a minor version (data/stable); --help and docstrings say so
 };
@@ -87,11 +89,11 @@ struct OptionRow {
 
   // A heading of the following rows.
   constexpr explicit OptionRow(const char* heading) : name(heading) {}
-  // A field of any type. A number may have any value.
+  // A field of any type. A number may have any value that is no code of an overflow.
   constexpr OptionRow(const char* its_name, const char* its_unit, const char* line, Field at,
                       OptionTrait its = OptionTrait::kNone, const char* by_default = nullptr)
       : name(its_name), unit(its_unit), doc(line), field(at), traits(its), usual(by_default) {}
-  // A number in [least, most].
+  // A number in [least, most]; an optional one may be unset too.
   constexpr OptionRow(const char* its_name, const char* its_unit, const char* line, Field at,
                       double least, double most, OptionTrait its = OptionTrait::kNone)
       : name(its_name),
@@ -113,8 +115,8 @@ struct OptionRow {
   const char* unit = "";  // or the placeholder of the value in --help; "" for pure numbers
   const char* doc = "";   // one line
   Field field;
-  double lower = -kInfinity;  // smallest and largest allowed number, both included
-  double upper = kInfinity;
+  double lower = -kOverflowCode;  // smallest and largest allowed number, both included
+  double upper = kOverflowCode;
   OptionTrait traits = OptionTrait::kNone;
   const char* usual = nullptr;  // text that --help prints as the default instead of the value
 };
@@ -125,6 +127,11 @@ struct IsNumberField : std::false_type {};
 template <class Options, class T>
 struct IsNumberField<T Options::*>
     : std::bool_constant<std::is_arithmetic_v<T> && !std::is_same_v<T, bool>> {};
+
+template <class Field>
+struct IsOptionalField : std::false_type {};
+template <class Options, class T>
+struct IsOptionalField<std::optional<T> Options::*> : std::true_type {};
 
 // Decimal text with up to 15 significant digits.
 template <class T>
@@ -170,20 +177,25 @@ bool IsList(const OptionRow<Options>& row) {
   return std::holds_alternative<std::vector<std::string> Options::*>(row.field);
 }
 
-// Checks every number against its range. The error names the first number outside.
+// Checks every number against its range, also those that are optional. The error names the first
+// number outside; one that is none is in no range.
 template <class Options, class Table>
 Expected<void> ValidateOptions(const Options& options, const Table& table) {
   for (const OptionRow<Options>& row : table) {
     if (row.Is(OptionTrait::kQuiet) || row.Is(OptionTrait::kUnchecked)) continue;
     const auto check = [&](const auto& field) -> Expected<void> {
-      if constexpr (IsNumberField<std::decay_t<decltype(field)>>::value) {
-        const double value = static_cast<double>(options.*field);
+      using Field = std::decay_t<decltype(field)>;
+      const auto within = [&](auto number) -> Expected<void> {
+        const double value = static_cast<double>(number);
         if (value >= row.lower && value <= row.upper) return {};
-        return Fail(std::string(row.name) + " = " + NumberText(options.*field) + " is outside [" +
+        return Fail(std::string(row.name) + " = " + NumberText(number) + " is outside [" +
                     NumberText(row.lower) + ", " + NumberText(row.upper) + "]");
-      } else {
-        return {};
+      };
+      if constexpr (IsNumberField<Field>::value) return within(options.*field);
+      if constexpr (IsOptionalField<Field>::value) {
+        if (options.*field) return within(*(options.*field));
       }
+      return {};
     };
     if (auto checked = std::visit(check, row.field); !checked) return checked;
   }

@@ -129,6 +129,9 @@ BatchTaskType CellTask(const CellOptions& asked, const PixelOptions& pixels) {
   task.options.push_back({kPixelCriterion, PixelCriterion(pixels), ""});
   task.run = [options, pixels, columns](const BatchCurve& curve, std::uint64_t /*seed*/,
                                         const Observer& observer) {
+    if (const auto valid = ValidateOptions(pixels, kPixelOptionTable); !valid) {
+      return TaskResult{RowStatus::kBroken, valid.error().message, {}, false};
+    }
     const CurveSet set = SetOfCell(curve);
     Expected<CellReport> report = DescribeCell(set, options, observer);
     if (!report) return TaskResult{RowStatus::kBroken, report.error().message, {}, false};

@@ -16,9 +16,8 @@ namespace lyrefit {
 
 // The file to which a run over many curves writes row by row, so that it can be resumed. It has
 // lines of JSON: a head with all inputs of a row (version, task, options, shard, digest of the
-// input), the rows in the order of the input, and {"end": number of rows} when complete. The last
-// member of every line, "crc", is the CRC-32 of this and all earlier lines. A reader thus detects a
-// line that was changed, moved or lost.
+// input), the rows in the order of the input, and {"end": number of rows} when complete. Every line
+// has a checksum (LineSums).
 
 // JSON with its keys in order, of every record of a batch.
 using BatchJson = nlohmann::ordered_json;
@@ -48,20 +47,6 @@ std::string TextDigest(const std::string& text);
 
 // The last line of a complete checkpoint file; empty if the run is unfinished.
 Expected<std::optional<PartEnd>> ReadCheckpointEnd(const std::string& path);
-
-// Running checksums over the lines of a checkpoint file.
-class LineSums {
- public:
-  // `line`, without its line end, with its checksum added as the last member.
-  std::string Seal(std::string_view line);
-  // `line` without its checksum. Errors, as a sentence: a missing or wrong checksum.
-  Expected<std::string> Check(std::string_view line);
-
- private:
-  unsigned long Add(std::string_view line);
-
-  unsigned long crc_ = 0;  // of all lines so far
-};
 
 enum class PartStart {
   kNew,      // the file must not exist
@@ -93,7 +78,6 @@ class CheckpointFile {
   Expected<void> Take(const std::string& line, int number, const CheckpointHead& head);
 
   const std::unique_ptr<AppendLog> log_;
-  LineSums sums_;
   std::int64_t rows_ = 0;
   bool complete_ = false;
 };
@@ -113,7 +97,6 @@ class CheckpointReader {
   explicit CheckpointReader(LogReader log) : log_(std::move(log)) {}
 
   LogReader log_;
-  LineSums sums_;
   CheckpointHead head_;
   std::int64_t rows_ = 0;
   bool over_ = false;

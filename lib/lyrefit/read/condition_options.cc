@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kColdest_C = -100;
 constexpr double kHottest_C = 150;
+constexpr double kMostLight_W_m2 = 1e7;  // of concentrators: ten times what they have
 
 Expected<void> CheckConditions(const ConditionOptions& stated) {
   if (stated.cells && *stated.cells < 1) {
@@ -33,8 +34,8 @@ Expected<void> CheckConditions(const ConditionOptions& stated) {
                             kColdest_C, kHottest_C, NumberText(*stated.temperature_C)));
   }
   if (stated.irradiance_W_m2 &&
-      !(std::isfinite(*stated.irradiance_W_m2) && *stated.irradiance_W_m2 >= 0)) {
-    return Fail(fmt::format("irradiance-Wm2: expected at least 0 W/m2, found {}",
+      !(*stated.irradiance_W_m2 >= 0 && *stated.irradiance_W_m2 <= kMostLight_W_m2)) {
+    return Fail(fmt::format("irradiance-Wm2: expected 0 to {:g} W/m2, found {}", kMostLight_W_m2,
                             NumberText(*stated.irradiance_W_m2)));
   }
   if (!stated.technology.empty() && FindTechnology(stated.technology) == nullptr) {

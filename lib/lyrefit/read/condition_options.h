@@ -43,7 +43,7 @@ inline constexpr OptionRow<ConditionOptions> kConditionOptionTable[] = {
 // Sets the stated conditions in `curve` and removes the assumptions about them. Where the file states
 // another value, the assumptions say which of both counts: "20 C given, instead of 49.8 C in line 9".
 // Errors, whose sentence begins with the option's name: fewer than one cell, fewer bypass diodes than
-// none, a temperature outside -100 .. 150 C, an irradiance below zero, a technology that is not known.
+// none, a temperature outside -100 .. 150 C, an irradiance outside 0 .. 1e7 W/m2, a technology that is not known.
 Expected<void> ApplyConditions(const ConditionOptions& stated, IvCurve* curve);
 // Applies the conditions to every curve of a set and to the set's common assumptions.
 Expected<void> ApplyConditions(const ConditionOptions& stated, CurveSet* set);

@@ -138,7 +138,9 @@ Expected<std::optional<double>> JsonFields::Number(std::initializer_list<const c
   const json* value = Find(keys, &key);
   if (value == nullptr) return std::optional<double>();
   if (!value->is_number()) return Refuse(key, "a number");
-  return std::optional<double>(value->get<double>());
+  const double number = value->get<double>();
+  if (!(std::fabs(number) < kOverflowCode)) return Refuse(key, "a number below 1e30");
+  return std::optional<double>(number);
 }
 
 Expected<std::optional<int>> JsonFields::WholeNumber(

@@ -16,6 +16,18 @@ Expected<nlohmann::json> ParseJson(const std::string& text, const std::string& f
 Expected<std::optional<nlohmann::json>> DocumentIn(const std::string& text,
                                                    const std::string& path);
 
+// What `read` returns. Where it asks a value of JSON for another type, an error that names the file.
+template <class Read>
+auto WithoutTypeErrors(const std::string& file, const Read& read) -> decltype(read()) {
+  try {
+    return read();
+  } catch (const nlohmann::json::exception& error) {
+    const std::string text = error.what();  // [json.exception.type_error.302] type must be ...
+    return Fail("a value is of another type than expected:" + text.substr(text.find(']') + 1),
+                file);
+  }
+}
+
 // Looks up keys of one JSON object and their positions in the text, for errors. A null value counts
 // as missing.
 class JsonFields {
@@ -27,7 +39,7 @@ class JsonFields {
   // name.
   const nlohmann::json* Find(std::initializer_list<const char*> keys, std::string* key) const;
 
-  // Value of a key; nullopt if missing, an error if of another type.
+  // Value of a key; nullopt if missing, an error if of another type or as large as an overflow code.
   Expected<std::optional<double>> Number(std::initializer_list<const char*> keys) const;
   Expected<std::optional<int>> WholeNumber(std::initializer_list<const char*> keys) const;
   Expected<std::optional<std::string>> Text(const char* key) const;

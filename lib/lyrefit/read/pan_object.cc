@@ -22,6 +22,8 @@ bool BeginsWith(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
 }
 
+constexpr std::size_t kDeepestBlock = 64;  // open blocks; PVsyst has up to six
+
 // An open block. "End of ..." names it by its type or by its name.
 struct PanBlock {
   std::string name;  // "Commercial" of PVObject_Commercial=pvCommercial
@@ -140,6 +142,11 @@ Expected<PanObject> ParsePan(const std::string& text, const std::string& path) {
                   path, reader.number(), static_cast<int>(margin) + 1);
     }
     if (auto block = Opened(key, value)) {
+      if (open.size() >= kDeepestBlock) {
+        return Fail(
+            fmt::format("expected \"End of ...\", found a block within {} others", kDeepestBlock), path,
+            reader.number(), static_cast<int>(margin) + 1);
+      }
       open.push_back({block->name, block->type, std::string(line), reader.number()});
     } else if (IsOfModule(open)) {
       PanEntry entry = {std::string(key), std::string(value), reader.number(),

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/json_text.h"
 
@@ -50,7 +52,9 @@ Expected<BoundsSpec> ReadBoundsFile(const std::string& path) {
   spec.name = path;
   const JsonFields fields(*json, text, path);
   for (const auto& [key, value] : json->items()) {
-    if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number()) {
+    if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number() ||
+        !(std::fabs(value[0].get<double>()) < kOverflowCode) ||
+        !(std::fabs(value[1].get<double>()) < kOverflowCode)) {
       return fields.Refuse(key, "[lower, upper], two numbers,");
     }
     spec.table[key] = {value[0].get<double>(), value[1].get<double>()};

@@ -13,7 +13,8 @@ namespace lyrefit {
 namespace {
 
 constexpr char kNoJournal[] = "expected a journal that --resume wrote, found another file";
-constexpr LogKind kKind = {"journal", "this journal", "a journal", "{\"journal\"", kNoJournal};
+constexpr LogKind kKind = {"journal",      "this journal", "a journal",
+                           "{\"journal\"", kNoJournal,     "begin another one"};
 
 std::string LineText(const JournalLine& line) {
   // Names may hold bytes that are not UTF-8.

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 
 namespace lyrefit {
@@ -24,7 +26,7 @@ Expected<Bound> ReadBound(std::string text) {
   }
   char* end = nullptr;
   bound.value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0') {
+  if (text.empty() || *end != '\0' || !(std::fabs(bound.value) <= kOverflowCode)) {
     return Fail("expected a tolerance like -0,+5 or -0W,+5W, found '" + whole + "'");
   }
   return bound;

@@ -30,7 +30,7 @@ inline constexpr OptionRow<ChecklistOptions> kChecklistOptionTable[] = {
     {"most-unsteady", "%", "largest departure of the light from its mean during a sweep",
      &ChecklistOptions::most_unsteady_percent, 0, 100},
     {"most-wind", "m/s", "most wind (IEC 61829:2015)", &ChecklistOptions::most_wind_m_s, 0, 100},
-    {"wind", "m/s", "wind during the measurement", &ChecklistOptions::wind_m_s},
+    {"wind", "m/s", "wind during the measurement", &ChecklistOptions::wind_m_s, 0, 100},
 };
 
 // Notes of the operator for the printed page. They enter no computation: the uncertainty of a
@@ -76,7 +76,8 @@ struct FieldTestOptions {
 
 inline constexpr OptionRow<FieldTestOptions> kFieldTestOptionTable[] = {
     OptionRow<FieldTestOptions>("Field test"),
-    {"rated-W", "W", "rated Pmax of one module at 1000 W/m2 and 25 C", &FieldTestOptions::rated_W},
+    {"rated-W", "W", "rated Pmax of one module at 1000 W/m2 and 25 C", &FieldTestOptions::rated_W,
+     1e-6, 1e6},
     {"tolerance", "-L,+H", "of the rating, in % or as -0W,+5W",
      OptionText<FieldTestOptions>{[](const std::string& text, FieldTestOptions* options,
                                      const TextReaders&) -> Expected<void> {
@@ -92,7 +93,7 @@ inline constexpr OptionRow<FieldTestOptions> kFieldTestOptionTable[] = {
     {"rated-u", "%", "expanded uncertainty (k = 2) of the rating itself; 0: it is a promise",
      &FieldTestOptions::rated_percent, 0, 50},
     {"gamma", "%/K", "temperature coefficient of Pmax",
-     &FieldTestOptions::power_coefficient_percent_K},
+     &FieldTestOptions::power_coefficient_percent_K, -10, 10},
     {"gamma-u", "%", "its expanded uncertainty (k = 2), of itself",
      &FieldTestOptions::power_coefficient_percent, 0, 1000},
     {"modules", "N", "modules in series in the string; 0: as the curve or the sheet states, else 1",

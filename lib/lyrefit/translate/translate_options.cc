@@ -108,25 +108,20 @@ Expected<void> ReadModule(const std::string& path, TranslateOptions* options) {
 }
 
 Expected<void> ValidateTranslateOptions(const TranslateOptions& options) {
+  constexpr double kMostPerKelvin = 1000;
   TRY(ValidateOptions(options, kTranslateOptionTable));
   TRY(ValidateOptions(options.uncertainty, kUncertaintyOptionTable));
   TRY(ValidateOptions(options.field_test, kFieldTestOptionTable));
   TRY(ValidateOptions(options.checklist, kChecklistOptionTable));
+  TRY(ValidateOptions(options.coefficients, kCoefficientTable));
   const StatedCoefficients& c = options.coefficients;
-  for (const auto* value : {&c.alpha_A_K, &c.alpha_percent_K, &c.beta_V_K, &c.beta_percent_K,
-                            &c.kappa_ohm_K, &c.resistance_series_ohm, &c.b1, &c.b2, &c.epsilon_V,
-                            &c.EgRef_eV, &c.dEgdT_1_K, &c.mu_gamma_1_K}) {
-    if (*value && !std::isfinite(**value)) return Fail("a coefficient is not a finite number");
-  }
-  if (c.resistance_series_ohm && *c.resistance_series_ohm < 0) {
-    return Fail("the internal series resistance is negative");
-  }
-  for (const auto* value : {&c.epsilon_V, &c.EgRef_eV}) {
-    if (*value && !(**value > 0)) return Fail("a band gap must be above 0");
-  }
   if (options.rear_irradiance_W_m2 > 0 && options.bifaciality_isc == 0) {
     return Fail(
         "irradiance of the back counts by the bifaciality of the module: say --bifaciality too");
+  }
+  for (const auto* value : {&c.alpha_A_K, &c.alpha_percent_K, &c.beta_V_K}) {
+    if (!*value || std::fabs(**value) <= kMostPerKelvin) continue;
+    return Fail(fmt::format("a coefficient of {:g} per kelvin is of no device", **value));
   }
   if (c.beta_percent_K && !(std::fabs(*c.beta_percent_K) < 2)) {
     return Fail(fmt::format("beta of {:g} %/K is of no device", *c.beta_percent_K));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/distributions.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/random.h"
 
 namespace lyrefit {
@@ -12,6 +14,11 @@ namespace {
 
 constexpr std::size_t kLeastDays = 10;        // on each side of a change
 constexpr std::size_t kMostCandidates = 400;  // days that are tried
+
+// Of the column of a change, days after it.
+double ChangeValue(ChangeKind kind, double after_days) {
+  return kind == ChangeKind::kStep ? 1 : (after_days + 0.5) / kYear_days;
+}
 
 struct ChangeCandidate {
   ChangeKind kind;
@@ -45,69 +52,103 @@ Eigen::MatrixXd WithColumn(const Eigen::MatrixXd& design, const Eigen::VectorXd&
   return wider;
 }
 
-// Gains of every candidate: the drop of the sum of squares over the variance that is left.
+// Gains of every candidate: the drop of the sum of squares over the variance that is left. A
+// whitened candidate times a whitened series is the candidate, mostly ones, times that series
+// whitened back: a sum over the days from the change on.
 class ChangeScan {
  public:
   ChangeScan(const NoiseModel& noise, const TimeSeries& series, const Eigen::MatrixXd& design,
-             const std::vector<ChangeCandidate>& candidates) {
+             const std::vector<ChangeCandidate>& candidates)
+      : filter_(noise, series), days_(series.days), candidates_(candidates) {
     const auto n = design.rows();
-    Eigen::MatrixXd columns(n, static_cast<Eigen::Index>(candidates.size()));
-    for (std::size_t c = 0; c < candidates.size(); ++c) {
-      columns.col(static_cast<Eigen::Index>(c)) = ColumnOf(series, candidates[c]);
-    }
-    const Eigen::MatrixXd white = Whiten(noise, series, design);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(white);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(filter_.Whiten(design));
     basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(n, design.cols());
-    columns_ = Whiten(noise, series, columns);
-    const Eigen::VectorXd before = columns_.colwise().norm();
-    columns_ -= basis_ * (basis_.transpose() * columns_);
-    for (Eigen::Index c = 0; c < columns_.cols(); ++c) {
-      const double left = columns_.col(c).norm();
-      if (left > 1e-6 * before[c]) {
-        columns_.col(c) /= left;
-      } else {
-        columns_.col(c).setZero();  // the design has it already
-      }
-    }
     degrees_ = static_cast<double>(n - design.cols() - 1);
-  }
-
-  // For each column of `white`, whitened series: gains of the candidates.
-  Eigen::MatrixXd Gains(const Eigen::MatrixXd& white) const {
-    const Eigen::MatrixXd left = white - basis_ * (basis_.transpose() * white);
-    Eigen::MatrixXd gains = (columns_.transpose() * left).array().square();
-    const Eigen::RowVectorXd squares = left.colwise().squaredNorm();
-    for (Eigen::Index k = 0; k < gains.cols(); ++k) {
-      gains.col(k) = (gains.col(k).array() * degrees_ /
-                      (squares[k] - gains.col(k).array()).max(1e-12 * squares[k]))
-                         .matrix();
+    const auto count = static_cast<Eigen::Index>(candidates.size());
+    Eigen::VectorXd before(count), by_design = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index c = 0; c < count; ++c) {
+      const ChangeCandidate& one = candidates[static_cast<std::size_t>(c)];
+      before[c] = filter_.SquaredNorm(static_cast<Eigen::Index>(one.first), [&](Eigen::Index i) {
+        return ChangeValue(one.kind, days_[static_cast<std::size_t>(i)] - days_[one.first]);
+      });
     }
-    return gains;
+    for (Eigen::Index k = 0; k < basis_.cols(); ++k) {
+      by_design += Products(basis_.col(k)).cwiseAbs2();
+    }
+    // Where the design has a candidate already, nothing is left of it.
+    constexpr double kLeast = 1e-11;
+    norms_ = (before - by_design).cwiseMax(0).cwiseSqrt();
+    for (Eigen::Index c = 0; c < count; ++c) {
+      if (!(norms_[c] * norms_[c] > kLeast * before[c])) norms_[c] = kInfinity;
+    }
   }
 
+  // Gains of the candidates for a whitened series.
+  Eigen::VectorXd Gains(const Eigen::VectorXd& white) const {
+    const Eigen::VectorXd left = white - basis_ * (basis_.transpose() * white);
+    const double squares = left.squaredNorm();
+    const Eigen::ArrayXd drops = Products(left).cwiseQuotient(norms_).array().square();
+    return drops * degrees_ / (squares - drops).max(1e-12 * squares);
+  }
+
+  // Of a series as it is.
+  Eigen::VectorXd GainsOf(const std::vector<double>& values) const {
+    const Eigen::Map<const Eigen::VectorXd> column(values.data(), basis_.rows());
+    return Gains(filter_.Whiten(column));
+  }
+
+  Eigen::Index days() const { return basis_.rows(); }
   // Of freedom of what a change leaves.
   double degrees() const { return degrees_; }
+  // Chance that noise has a gain as large; at most this.
+  double MostChance(double gain) const {
+    return static_cast<double>(candidates_.size()) * FisherTail(gain, 1, degrees_);
+  }
 
  private:
+  // Every whitened candidate times a whitened series.
+  Eigen::VectorXd Products(const Eigen::VectorXd& white) const {
+    const Eigen::VectorXd back = filter_.WhitenBack(white);
+    Eigen::VectorXd products(static_cast<Eigen::Index>(candidates_.size()));
+    double sum = 0, ramp = 0;  // of `back` from a day on, times a step and an onset of that day
+    std::size_t i = days_.size();
+    for (Eigen::Index c = products.size() - 1; c >= 0; --c) {
+      const ChangeCandidate& one = candidates_[static_cast<std::size_t>(c)];
+      while (i > one.first) {
+        if (i < days_.size()) ramp += sum * (days_[i] - days_[i - 1]) / kYear_days;
+        --i;
+        const double now = back[static_cast<Eigen::Index>(i)];
+        sum += now;
+        ramp += now * ChangeValue(ChangeKind::kOnset, 0);
+      }
+      products[c] = one.kind == ChangeKind::kStep ? sum : ramp;
+    }
+    return products;
+  }
+
+  ErrorFilter filter_;
+  std::vector<double> days_;
+  std::vector<ChangeCandidate> candidates_;
   Eigen::MatrixXd basis_;
-  Eigen::MatrixXd columns_;
+  Eigen::VectorXd norms_;  // of what the design leaves of whitened candidates
   double degrees_ = 1;
 };
 
-// Share of series without a change whose largest gain is at least `gain`.
-double ChanceOf(const ChangeScan& scan, Eigen::Index days, double gain,
-                const ChangeOptions& options, std::uint64_t run) {
+// Share of series without a change whose largest gain is at least `gain`; at least `level` once it
+// is above.
+double ChanceOf(const ChangeScan& scan, double gain, const ChangeOptions& options,
+                std::uint64_t run) {
+  constexpr double kNever = 1e-12;
+  const double all = 1.0 + options.draws;
+  if (scan.MostChance(gain) < kNever) return 1 / all;  // none of the draws would be above
   RandomStream random(options.seed, run);
-  int above = 0;
-  constexpr int kTogether = 64;
-  for (int done = 0; done < options.draws; done += kTogether) {
-    const int now = std::min(kTogether, options.draws - done);
-    Eigen::MatrixXd white(days, now);
-    for (Eigen::Index k = 0; k < white.size(); ++k) white.data()[k] = random.Normal();
-    const Eigen::MatrixXd gains = scan.Gains(white);
-    for (int k = 0; k < now; ++k) above += gains.col(k).maxCoeff() >= gain ? 1 : 0;
+  Eigen::VectorXd white(scan.days());
+  double above = 1;
+  for (int draw = 0; draw < options.draws && above / all <= options.level; ++draw) {
+    for (double& one : white) one = random.Normal();
+    if (scan.Gains(white).maxCoeff() >= gain) ++above;
   }
-  return (1.0 + above) / (1.0 + options.draws);
+  return above / all;
 }
 
 // The candidates under the errors of a fit, and their gains.
@@ -122,9 +163,7 @@ ScannedChanges ScanUnder(const TimeFit& fit, const TimeSeries& series,
   TimeSeries own = series;
   own.spread = fit.spread;
   ScannedChanges out = {ChangeScan(fit.noise, own, design, candidates), {}};
-  const Eigen::MatrixXd values =
-      Eigen::Map<const Eigen::VectorXd>(series.values.data(), design.rows());
-  out.gains = out.scan.Gains(Whiten(fit.noise, own, values));
+  out.gains = out.scan.GainsOf(series.values);
   return out;
 }
 
@@ -155,8 +194,7 @@ Eigen::VectorXd ChangeColumn(const TimeSeries& series, ChangeKind kind, double d
   Eigen::VectorXd column(static_cast<Eigen::Index>(series.days.size()));
   for (Eigen::Index i = 0; i < column.size(); ++i) {
     const double after = series.days[static_cast<std::size_t>(i)] - day;
-    const double value = kind == ChangeKind::kStep ? 1 : (after + 0.5) / kYear_days;
-    column[i] = after >= -kRounding_days ? value : 0;
+    column[i] = after >= -kRounding_days ? ChangeValue(kind, after) : 0;
   }
   return column;
 }
@@ -181,8 +219,7 @@ ChangingSeries FitChanges(const TimeSeries& series, const Eigen::MatrixXd& desig
     }
     found.gains.maxCoeff(&best);
     ChangePoint change;
-    change.p_value =
-        ChanceOf(found.scan, design.rows(), found.gains[best], options, out.changes.size());
+    change.p_value = ChanceOf(found.scan, found.gains[best], options, out.changes.size());
     if (change.p_value > options.level) break;
     const auto at = static_cast<std::size_t>(best);
     change.kind = candidates[at].kind;

@@ -108,16 +108,9 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
   const TimeFit fit = FitTime(own.series, design);
   TimeSeries series = own.series;
   series.spread = changes_daily ? fit.usual_spread : fit.spread;
-  double variance = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (share[i] == 0) continue;
-    variance += share[i] * share[i] * fit.noise.sigma * fit.noise.sigma * series.spread[i];
-    if (changes_daily || fit.noise.half_life_days <= 0) continue;
-    for (std::size_t j = 0; j < n; ++j) {
-      if (j != i) variance += share[i] * share[j] * ErrorCovariance(fit.noise, series, i, j);
-    }
-    variance += share[i] * share[i] * fit.noise.shared_sigma * fit.noise.shared_sigma;
-  }
+  NoiseModel noise = fit.noise;
+  if (changes_daily) noise.half_life_days = 0;
+  const double variance = ErrorVariance(noise, series, share);
   const double drift = drift_per_year * (mean_day - first_day) / kYear_days;
   const double error =
       std::hypot(std::sqrt(std::max(variance, 0.0)), std::hypot(drift, model_error));

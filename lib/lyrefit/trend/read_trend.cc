@@ -83,6 +83,12 @@ class SeriesReader {
     if (reading_.prepare) TRY(reading_.prepare(&curve));
     curve.assumptions = {};
     curve.stated = {};
+    if (known_ && !reading_.law && time_s < series_.law_from_s - kDay_s) {
+      return Fail(
+          fmt::format("the sweep of {} comes after a month of later ones, from {} on: name "
+                      "the files in the order of time",
+                      DateTimeText(time_s), DateTimeText(series_.law_from_s)));
+    }
     if (!known_ && !waiting_.empty()) ordered_ = ordered_ && time_s >= waiting_.back().time_s;
     waiting_.push_back({std::move(curve), time_s});
     if (waiting_.size() < kTogether) return {};
@@ -100,7 +106,14 @@ class SeriesReader {
     broken_.push_back(std::move(row));
   }
 
+  // A sweep without a time; an error if all are.
+  void TakeUntimed(const Error& error) {
+    if (!untimed_) untimed_ = error;
+    TakeBroken(kUnknown, error.ToString());
+  }
+
   Expected<TrendSeries> End() {
+    if (untimed_ && waiting_.empty() && series_.rows.empty()) return tl::unexpected(*untimed_);
     if (!known_) TRY(FindLaw());
     Reduce();
     series_.rows.insert(series_.rows.end(), broken_.begin(), broken_.end());
@@ -114,7 +127,21 @@ class SeriesReader {
     return {};
   }
 
+  // Sweeps of another device do not follow the law.
+  void TakeOutOthers() {
+    const int cells = series_.device->cells_in_series;
+    const auto is_other = [&](const TimedSweep& sweep) {
+      const int its = sweep.curve.conditions.cells_in_series;
+      if (!sweep.curve.cells_known || its == cells) return false;
+      TakeBroken(sweep.time_s,
+                 fmt::format("a sweep of {} cells in series, the law is of {}", its, cells));
+      return true;
+    };
+    waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), is_other), waiting_.end());
+  }
+
   void Reduce() {
+    TakeOutOthers();
     AppendSweeps(waiting_, options_.threads, &series_);
     waiting_.clear();
   }
@@ -124,8 +151,9 @@ class SeriesReader {
   TrendSeries series_;
   std::vector<TimedSweep> waiting_;
   std::vector<TrendRow> broken_;
-  bool known_ = false;   // whether the law is
-  bool ordered_ = true;  // the sweeps that wait for it are in order of time
+  std::optional<Error> untimed_;  // of the first sweep without a time
+  bool known_ = false;            // whether the law is
+  bool ordered_ = true;           // the sweeps that wait for it are in order of time
 };
 
 bool IsSetFolder(const std::string& input) {
@@ -139,8 +167,12 @@ Expected<void> ReadSet(const std::string& input, const TrendReadOptions& reading
   for (IvCurve& curve : set.curves) {
     std::map<std::string, std::string> beside;
     if (!curve.notes.date.empty()) beside["date"] = curve.notes.date;
-    TRY(const double time_s, TimeOf(beside, curve.name, input + ", curve " + curve.name));
-    TRY(reader->Take(std::move(curve), time_s));
+    const auto time = TimeOf(beside, curve.name, input + ", curve " + curve.name);
+    if (time) {
+      TRY(reader->Take(std::move(curve), *time));
+    } else {
+      reader->TakeUntimed(time.error());
+    }
   }
   for (const RejectedCurve& rejected : set.rejected) {
     reader->TakeBroken(kUnknown, rejected.error.message);
@@ -164,10 +196,24 @@ Expected<bool> ReadStream(const std::vector<std::string>& inputs, const TrendRea
       reader->TakeBroken(time.value_or(kUnknown), read.curve.error().message);
       continue;
     }
-    if (!time) return tl::unexpected(time.error());
-    TRY(reader->Take(std::move(*read.curve), *time));
+    if (time) {
+      TRY(reader->Take(std::move(*read.curve), *time));
+    } else {
+      reader->TakeUntimed(time.error());
+    }
     if (progress.Step()) return true;
   }
+}
+
+// A state holds no measurements, but rows by its own law.
+Expected<void> RefuseStates(const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    if (!IsTrendState(input)) continue;
+    return Fail(
+        "the state of a trend is read alone: append the other measurements to it (--append)",
+        input);
+  }
+  return {};
 }
 
 std::string NameOfInput(const std::vector<std::string>& inputs) {
@@ -182,6 +228,7 @@ Expected<TrendSeries> ReadTrend(const std::vector<std::string>& inputs,
                                 const TrendReadOptions& reading, const TrendOptions& options,
                                 const Observer& observer) {
   if (inputs.empty()) return Fail("expected sweeps, found no file");
+  TRY(RefuseStates(inputs));
   SeriesReader reader(reading, options);
   const ProgressReporter progress(observer, "sweeps", 0);
   std::vector<std::string> streams;
@@ -205,6 +252,7 @@ Expected<TrendSeries> ReadTrend(const std::vector<std::string>& inputs,
 Expected<TrendSeries> ReadOperatingPoints(const std::vector<std::string>& files,
                                           const TrendReadOptions& reading) {
   if (files.empty()) return Fail("expected a table of operating points, found no file");
+  TRY(RefuseStates(files));
   if (!reading.law) {
     return Fail(
         "operating points alone do not tell the law of their module: name it (--module), as a file "

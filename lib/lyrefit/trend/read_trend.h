@@ -31,9 +31,9 @@ struct TrendReadOptions {
 // with a date in its name ("2025-03-12T10-30.csv", "module7_20250312_103000.csv"). Keeps a row of
 // numbers for each; the sweeps themselves only of the reference days, if the law is theirs (all, if
 // they are not in order of time).
-// A sweep that cannot be read is an unusable row with the reason. An observer that stops the reading
-// gets the series of the sweeps read so far. Errors: those of the source; a sweep without a time; no
-// law.
+// A sweep that cannot be read, that has no time or whose cells are not those of the law is an
+// unusable row with the reason. An observer that stops the reading gets the series of the sweeps read
+// so far. Errors: those of the source; no sweep has a time; the state of a trend; no law.
 Expected<TrendSeries> ReadTrend(const std::vector<std::string>& inputs,
                                 const TrendReadOptions& reading, const TrendOptions& options,
                                 const Observer& observer = {});
@@ -46,18 +46,25 @@ Expected<TrendSeries> ReadTrend(const std::vector<std::string>& inputs,
 Expected<TrendSeries> ReadOperatingPoints(const std::vector<std::string>& files,
                                           const TrendReadOptions& reading);
 
-// The state of a trend on disk: its law and its rows, a line each. A sweep is appended without
-// reading the others.
+// The state of a trend on disk: its law and its rows, a line each with its checksum. A sweep is
+// appended without reducing the others.
 //
 // Writes the law of `series` and its rows into a new state, or appends the rows to one. Rows of a
-// time that the state has already are left out; returns the number of those that were written.
-// Errors: a file that is no state, or of another law; a file that cannot be written.
+// time that the state has already are left out, but one without an answer gives way to one with it;
+// returns the number of those that were written. Errors: a file that is no state or a changed one;
+// a state of another law; a row of a day before the sweeps that the law of the state is of; a file
+// that cannot be written.
 Expected<std::int64_t> AppendTrendState(const std::string& path, const TrendSeries& series);
+// Error, as a sentence: the series is of another law than the state, or of another kind of
+// measurements.
+Expected<void> CheckSameLaw(const TrendSeries& state, const TrendSeries& series,
+                            const std::string& path);
 
-// Reads a state. Errors, with the line: another file, a broken line.
+// Reads a state. Errors, with the line: another file, a line that is broken or was changed. States
+// of lyrefit 1.0.0 have no checksums.
 Expected<TrendSeries> ReadTrendState(const std::string& path);
-// The series of a state without its rows.
-Expected<TrendSeries> ReadTrendStateHead(const std::string& path);
+// The series of a state without its rows. Empty: no file, or one without a whole first line.
+Expected<std::optional<TrendSeries>> ReadTrendStateHead(const std::string& path);
 // Whether a file is the state of a trend.
 bool IsTrendState(const std::string& path);
 

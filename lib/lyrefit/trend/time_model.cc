@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/base/median.h"
@@ -12,59 +13,18 @@
 namespace lyrefit {
 namespace {
 
-// Variances of the filter's predictions, of a usual day 1, and the weights of its corrections.
-struct Gains {
-  std::vector<double> fade;      // of the state from the day before
-  std::vector<double> gain;      // share of an innovation that the state takes over
-  std::vector<double> variance;  // of an innovation
-};
-
-// `ratio`: variance of u over that of e on a usual day.
-Gains GainsOf(double ratio, double half_life, const TimeSeries& series) {
-  const std::size_t n = series.days.size();
-  Gains gains;
-  gains.fade.resize(n);
-  gains.gain.resize(n);
-  gains.variance.resize(n);
-  double state = ratio;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double gap = i == 0 ? 0 : series.days[i] - series.days[i - 1];
-    const double fade = half_life > 0 ? std::exp2(-gap / half_life) : 0;
-    if (i > 0) state = fade * fade * state + (1 - fade * fade) * ratio;
-    gains.fade[i] = i == 0 ? 0 : fade;
-    gains.variance[i] = state + series.spread[i];
-    gains.gain[i] = state / gains.variance[i];
-    state *= 1 - gains.gain[i];
-  }
-  return gains;
-}
-
-Eigen::MatrixXd Filtered(const Gains& gains, const Eigen::MatrixXd& columns) {
-  Eigen::MatrixXd white(columns.rows(), columns.cols());
-  Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(columns.cols());
-  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    state *= gains.fade[k];
-    const Eigen::RowVectorXd innovation = columns.row(i) - state;
-    white.row(i) = innovation / std::sqrt(gains.variance[k]);
-    state += gains.gain[k] * innovation;
-  }
-  return white;
-}
-
 struct Regression {
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd inverse;    // of X'X, whitened
   Eigen::VectorXd residuals;  // whitened
-  double log_likelihood = 0;  // restricted, without constants
   double variance = 0;        // of e on a usual day
 };
 
-Regression RegressionOf(const Gains& gains, const TimeSeries& series,
+Regression RegressionOf(const ErrorFilter& filter, const TimeSeries& series,
                         const Eigen::MatrixXd& design) {
   Eigen::MatrixXd all(design.rows(), design.cols() + 1);
   all << design, Eigen::Map<const Eigen::VectorXd>(series.values.data(), design.rows());
-  const Eigen::MatrixXd white = Filtered(gains, all);
+  const Eigen::MatrixXd white = filter.Whiten(all);
   const Eigen::MatrixXd x = white.leftCols(design.cols());
   const Eigen::VectorXd y = white.rightCols(1);
   const Eigen::MatrixXd cross = x.transpose() * x;
@@ -75,12 +35,40 @@ Regression RegressionOf(const Gains& gains, const TimeSeries& series,
   out.residuals = y - x * out.coefficients;
   const double degrees = static_cast<double>(design.rows() - design.cols());
   out.variance = std::max(out.residuals.squaredNorm() / degrees, 1e-300);
-  double log_variance = 0;
-  for (const double v : gains.variance) log_variance += std::log(v);
-  const double log_det = factor.vectorD().array().max(1e-300).log().sum();
-  out.log_likelihood = -0.5 * (degrees * std::log(out.variance) + log_variance + log_det);
   return out;
 }
+
+// Restricted likelihoods of a regression under many errors. They do not depend on the basis of the
+// design, nor on what of it the values contain, so an orthonormal one and residuals stand for them.
+class Likelihoods {
+ public:
+  Likelihoods(const TimeSeries& series, const Eigen::MatrixXd& design)
+      : degrees_(static_cast<double>(design.rows() - design.cols())) {
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(design);
+    const Eigen::MatrixXd basis =
+        qr.householderQ() * Eigen::MatrixXd::Identity(design.rows(), qr.rank());
+    const Eigen::Map<const Eigen::VectorXd> values(series.values.data(), design.rows());
+    columns_.resize(design.rows(), qr.rank() + 1);
+    columns_ << basis, values - basis * (basis.transpose() * values);
+  }
+
+  // The logarithm, without constants.
+  double Of(const ErrorFilter& filter) const {
+    const Eigen::MatrixXd white = filter.Whiten(columns_);
+    const Eigen::MatrixXd cross = white.transpose() * white;
+    const Eigen::Index p = cross.cols() - 1;
+    const Eigen::LLT<Eigen::MatrixXd> factor(cross.topLeftCorner(p, p));
+    const Eigen::VectorXd fitted = factor.matrixL().solve(cross.topRightCorner(p, 1));
+    const double squares = cross(p, p) - fitted.squaredNorm();
+    const double log_det = 2 * factor.matrixLLT().diagonal().array().max(1e-300).log().sum();
+    return -0.5 * (degrees_ * std::log(std::max(squares / degrees_, 1e-300)) +
+                   filter.log_determinant() + log_det);
+  }
+
+ private:
+  double degrees_;
+  Eigen::MatrixXd columns_;
+};
 
 // Variance of u over that of e, and half-lives in days, that are tried.
 constexpr double kRatios[] = {0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 40, 100};
@@ -104,32 +92,45 @@ void SetSpread(double k, const std::vector<double>& outlying, TimeSeries* series
 }
 
 // The errors of the highest restricted likelihood.
-BestNoise BestNoiseOf(const std::vector<double>& outlying, const Eigen::MatrixXd& design,
+BestNoise BestNoiseOf(const std::vector<double>& outlying, const Likelihoods& likelihoods,
                       TimeSeries* fitted) {
-  BestNoise best;
   TimeSeries& series = *fitted;
+  const auto likelihood = [&](double ratio, double half_life) {
+    return likelihoods.Of(ErrorFilter(ratio, half_life, series));
+  };
   double highest = -HUGE_VAL, usual = 0;
   for (const double k : kPerMeasurement) {
     SetSpread(k, outlying, &series);
     for (const double ratio : {0.0, 1.0, 8.0}) {
-      const Regression one =
-          RegressionOf(GainsOf(ratio, ratio > 0 ? 8 : 0, series), series, design);
-      if (one.log_likelihood <= highest + kTie) continue;
-      highest = one.log_likelihood;
+      const double one = likelihood(ratio, ratio > 0 ? 8 : 0);
+      if (one <= highest + kTie) continue;
+      highest = one;
       usual = k;
     }
   }
   SetSpread(usual, outlying, &series);
-  highest = RegressionOf(GainsOf(0, 0, series), series, design).log_likelihood;
+  BestNoise best;
+  highest = likelihood(0, 0);
   const double span = series.days.back() - series.days.front();
+  constexpr int kCount = static_cast<int>(std::size(kRatios));
+  int at = kCount / 2;
   for (const double half_life : kHalfLives) {
     if (half_life > span / 3) break;
-    for (const double ratio : kRatios) {
-      const Regression one = RegressionOf(GainsOf(ratio, half_life, series), series, design);
-      if (one.log_likelihood > highest) {
-        highest = one.log_likelihood;
-        best = {ratio, half_life};
+    // Uphill from the best ratio of the half-life before.
+    double here = likelihood(kRatios[at], half_life);
+    for (const int step : {1, -1}) {
+      const int from = at;
+      for (int next = at + step; next >= 0 && next < kCount; next += step) {
+        const double there = likelihood(kRatios[next], half_life);
+        if (there <= here) break;
+        here = there;
+        at = next;
       }
+      if (at != from) break;
+    }
+    if (here > highest) {
+      highest = here;
+      best = {kRatios[at], half_life};
     }
   }
   return best;
@@ -148,20 +149,64 @@ double EffectiveDays(const BestNoise& noise, const TimeSeries& series) {
 
 }  // namespace
 
-Eigen::MatrixXd Whiten(const NoiseModel& noise, const TimeSeries& series,
-                       const Eigen::MatrixXd& columns) {
-  const double part = noise.shared_sigma / noise.sigma;
-  return Filtered(GainsOf(part * part, noise.half_life_days, series), columns);
+ErrorFilter::ErrorFilter(double ratio, double half_life_days, const TimeSeries& series) {
+  const auto n = static_cast<Eigen::Index>(series.days.size());
+  fade_.resize(n);
+  gain_.resize(n);
+  variance_.resize(n);
+  double state = ratio, last_gap = -1, fade = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double gap = i == 0 ? 0 : series.days[k] - series.days[k - 1];
+    if (gap != last_gap) fade = half_life_days > 0 ? std::exp2(-gap / half_life_days) : 0;
+    last_gap = gap;
+    if (i > 0) state = fade * fade * state + (1 - fade * fade) * ratio;
+    fade_[i] = i == 0 ? 0 : fade;
+    variance_[i] = state + series.spread[k];
+    gain_[i] = state / variance_[i];
+    state *= 1 - gain_[i];
+  }
 }
 
-double ErrorCovariance(const NoiseModel& noise, const TimeSeries& series, std::size_t i,
-                       std::size_t j) {
-  double covariance = i == j ? noise.sigma * noise.sigma * series.spread[i] : 0;
-  if (noise.half_life_days > 0) {
-    covariance += noise.shared_sigma * noise.shared_sigma *
-                  std::exp2(-std::fabs(series.days[i] - series.days[j]) / noise.half_life_days);
+ErrorFilter::ErrorFilter(const NoiseModel& noise, const TimeSeries& series)
+    : ErrorFilter(std::pow(noise.shared_sigma / noise.sigma, 2), noise.half_life_days, series) {}
+
+Eigen::MatrixXd ErrorFilter::Whiten(const Eigen::MatrixXd& columns) const {
+  Eigen::MatrixXd white(columns.rows(), columns.cols());
+  const Eigen::VectorXd scale = variance_.cwiseSqrt().cwiseInverse();
+  Eigen::VectorXd state = Eigen::VectorXd::Zero(columns.cols());
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    for (Eigen::Index c = 0; c < columns.cols(); ++c) {
+      const double faded = state[c] * fade_[i];
+      const double innovation = columns(i, c) - faded;
+      white(i, c) = innovation * scale[i];
+      state[c] = faded + gain_[i] * innovation;
+    }
   }
-  return covariance;
+  return white;
+}
+
+Eigen::VectorXd ErrorFilter::WhitenBack(const Eigen::VectorXd& white) const {
+  Eigen::VectorXd column(white.size());
+  double state = 0;  // slope by the state after the day
+  for (Eigen::Index i = white.size() - 1; i >= 0; --i) {
+    column[i] = white[i] / std::sqrt(variance_[i]) + gain_[i] * state;
+    state = fade_[i] * (state - column[i]);
+  }
+  return column;
+}
+
+double ErrorVariance(const NoiseModel& noise, const TimeSeries& series,
+                     const std::vector<double>& weights) {
+  double own = 0, shared = 0, before = 0;  // before: of earlier days, as far as today shares them
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    own += weights[i] * weights[i] * series.spread[i];
+    if (noise.half_life_days <= 0) continue;
+    if (i > 0) before *= std::exp2((series.days[i - 1] - series.days[i]) / noise.half_life_days);
+    shared += weights[i] * (weights[i] + 2 * before);
+    before += weights[i];
+  }
+  return noise.sigma * noise.sigma * own + noise.shared_sigma * noise.shared_sigma * shared;
 }
 
 double TimeFit::t_95() const { return StudentQuantile(0.975, std::max(degrees, 3.0)); }
@@ -173,9 +218,10 @@ TimeFit FitTime(const TimeSeries& series, const Eigen::MatrixXd& design) {
   std::vector<double> outlying(series.days.size(), 1);
   BestNoise noise;
   Regression fit;
+  const Likelihoods likelihoods(series, design);
   for (int round = 0; round < kRounds; ++round) {
-    noise = BestNoiseOf(outlying, design, &weighted);
-    fit = RegressionOf(GainsOf(noise.ratio, noise.half_life, weighted), weighted, design);
+    noise = BestNoiseOf(outlying, likelihoods, &weighted);
+    fit = RegressionOf(ErrorFilter(noise.ratio, noise.half_life, weighted), weighted, design);
     if (round + 1 == kRounds) break;
     std::vector<double> sizes(outlying.size());
     for (std::size_t i = 0; i < sizes.size(); ++i) {

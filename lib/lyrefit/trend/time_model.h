@@ -13,7 +13,7 @@ namespace lyrefit {
 // with a variance that falls with the number of measurements of the day, 1 + k / count. The Kalman
 // filter of this state whitens the series and the columns of X in linear time (Harvey 1989,
 // "Forecasting, Structural Time Series Models and the Kalman Filter", 3.4). Sizes and half-life
-// maximise the restricted likelihood on a grid. Days far from the regression get a larger spread
+// maximise the restricted likelihood on a grid: over the sizes uphill, over all half-lives. Days far from the regression get a larger spread
 // (Huber's weights), so that they do not steer it.
 
 constexpr double kYear_days = 365.25;
@@ -33,13 +33,41 @@ struct TimeSeries {
   std::vector<double> spread;  // relative variance of e, 1 on a usual day; set by FitTime
 };
 
-// Divides out the errors: independent columns of unit variance (in units of `sigma`).
-Eigen::MatrixXd Whiten(const NoiseModel& noise, const TimeSeries& series,
-                       const Eigen::MatrixXd& columns);
+// Divides out the errors of a series: W with W C W' = I, in units of `sigma`, for their covariance
+// C. All in linear time.
+class ErrorFilter {
+ public:
+  ErrorFilter(const NoiseModel& noise, const TimeSeries& series);
+  // `ratio`: variance of u over that of e on a day of spread 1.
+  ErrorFilter(double ratio, double half_life_days, const TimeSeries& series);
 
-// Covariance of the errors of two days, in the squared unit of the series.
-double ErrorCovariance(const NoiseModel& noise, const TimeSeries& series, std::size_t i,
-                       std::size_t j);
+  // W applied to each column.
+  Eigen::MatrixXd Whiten(const Eigen::MatrixXd& columns) const;
+  // The transpose of W applied to a column.
+  Eigen::VectorXd WhitenBack(const Eigen::VectorXd& white) const;
+  // Squared norm of a whitened column that is 0 before position `first`, value(i) from there on.
+  template <class Value>
+  double SquaredNorm(Eigen::Index first, const Value& value) const {
+    double state = 0, norm = 0;
+    for (Eigen::Index i = first; i < variance_.size(); ++i) {
+      if (i > first) state *= fade_[i];
+      const double innovation = value(i) - state;
+      norm += innovation * innovation / variance_[i];
+      state += gain_[i] * innovation;
+    }
+    return norm;
+  }
+  double log_determinant() const { return variance_.array().log().sum(); }  // of C
+
+ private:
+  Eigen::VectorXd fade_;      // of the state from the day before
+  Eigen::VectorXd gain_;      // share of an innovation that the state takes over
+  Eigen::VectorXd variance_;  // of an innovation
+};
+
+// Variance of the sum of the errors with these weights, in the squared unit of the series.
+double ErrorVariance(const NoiseModel& noise, const TimeSeries& series,
+                     const std::vector<double>& weights);
 
 struct TimeFit {
   NoiseModel noise;

@@ -16,6 +16,15 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kSweepsForLaw = 60;
+constexpr std::string_view kLawOfSweeps = " sweeps of the reference days";
+
+Expected<void> CheckSubstrings(const TrendDevice& device) {
+  if (device.substrings <= 0 || device.cells_in_series % device.substrings == 0) return {};
+  return Fail(
+      fmt::format("{} cells have no {} equal substrings: bypass diodes are counted over the "
+                  "whole device (--bypass-diodes); 0 if theirs are unequal",
+                  device.cells_in_series, device.substrings));
+}
 
 double LargestCurrent(const IvCurve& curve) {
   return curve.current_A.empty()
@@ -23,11 +32,16 @@ double LargestCurrent(const IvCurve& curve) {
              : *std::max_element(curve.current_A.begin(), curve.current_A.end());
 }
 
+double FirstOf(const std::vector<TimedSweep>& sweeps) {
+  double first = kInfinity;
+  for (const TimedSweep& sweep : sweeps) first = std::min(first, sweep.time_s);
+  return first;
+}
+
 // The brighter half of the sweeps of the reference days, at most kSweepsForLaw of them, evenly.
 std::vector<const IvCurve*> SweepsForLaw(const std::vector<TimedSweep>& sweeps,
                                          const TrendOptions& options) {
-  double first = kInfinity;
-  for (const TimedSweep& sweep : sweeps) first = std::min(first, sweep.time_s);
+  const double first = FirstOf(sweeps);
   std::vector<const IvCurve*> chosen;
   for (const TimedSweep& sweep : sweeps) {
     const bool early = sweep.time_s <= first + options.reference_days * kDay_s;
@@ -53,6 +67,7 @@ Expected<TrendSeries> SeriesOfModule(const NamedParameters& module, TrendSource 
                                      int bypass_diodes) {
   TRY(TrendDevice device, DeviceOfModule(module));
   device.substrings = bypass_diodes;
+  TRY(CheckSubstrings(device));
   TrendSeries series;
   series.source = source;
   series.device = std::make_shared<const TrendDevice>(device);
@@ -69,10 +84,17 @@ Expected<TrendSeries> SeriesOfSweeps(const std::vector<TimedSweep>& sweeps,
                             device.error().message, kLeastBlocks, sweeps.size(), kSideBySide));
   }
   if (!device) return tl::unexpected(device.error());
+  TRY(CheckSubstrings(*device));
   TrendSeries series;
   series.device = std::make_shared<const TrendDevice>(*device);
-  series.law = fmt::format("{} sweeps of the reference days", chosen.size());
+  series.law = fmt::format("{}{}", chosen.size(), kLawOfSweeps);
+  series.law_from_s = FirstOf(sweeps);
   return series;
+}
+
+bool IsLawOfSweeps(const std::string& law) {
+  return law.size() > kLawOfSweeps.size() &&
+         law.compare(law.size() - kLawOfSweeps.size(), std::string::npos, kLawOfSweeps) == 0;
 }
 
 void AppendSweeps(const std::vector<TimedSweep>& sweeps, int threads, TrendSeries* series) {

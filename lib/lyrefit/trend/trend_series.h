@@ -29,23 +29,28 @@ struct TrendSeries {
   TrendSource source = TrendSource::kSweeps;
   std::shared_ptr<const TrendDevice> device;  // the law that they are reduced by
   std::string law;                            // where it is from, in a few words
-  std::vector<TrendRow> rows;                 // one for each measurement
-  bool interrupted = false;                   // reading was stopped: the first ones only
+  double law_from_s =
+      kUnknown;  // the first of the sweeps that the law is of; unknown: it is none of sweeps
+  std::vector<TrendRow> rows;  // one for each measurement
+  bool interrupted = false;    // reading was stopped: the first ones only
 };
 
 // A series without rows and name, by the law of a module file. `bypass_diodes` of the device, each
-// across equally many cells; 0: not known. Errors: a module with two diodes.
+// across equally many cells; 0: not known. Errors: a module with two diodes; substrings that cannot
+// be equal.
 Expected<TrendSeries> SeriesOfModule(const NamedParameters& module, TrendSource source,
                                      int bypass_diodes);
 
 // A series without rows and name, by the law of a device's own sweeps: medians of fits with n free
 // of up to sixty of the brighter ones among the reference days. Errors: no sweep that a single diode
-// describes.
+// describes; substrings that cannot be equal.
 Expected<TrendSeries> SeriesOfSweeps(const std::vector<TimedSweep>& sweeps,
                                      const TrendOptions& options);
 
 // The law as a text: equal laws have equal ones.
 std::string LawText(const TrendSeries& series);
+// Whether the words for a law are those for one of sweeps.
+bool IsLawOfSweeps(const std::string& law);
 
 // Reduces sweeps to rows and appends them.
 void AppendSweeps(const std::vector<TimedSweep>& sweeps, int threads, TrendSeries* series);

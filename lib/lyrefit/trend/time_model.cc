@@ -52,8 +52,12 @@ class Likelihoods {
     columns_ << basis, values - basis * (basis.transpose() * values);
   }
 
-  // The logarithm, without constants.
-  double Of(const ErrorFilter& filter) const {
+  // The logarithm, without constants, and the variance of e on a usual day.
+  struct Found {
+    double log = 0;
+    double variance = 0;
+  };
+  Found Of(const ErrorFilter& filter) const {
     const Eigen::MatrixXd white = filter.Whiten(columns_);
     const Eigen::MatrixXd cross = white.transpose() * white;
     const Eigen::Index p = cross.cols() - 1;
@@ -61,8 +65,8 @@ class Likelihoods {
     const Eigen::VectorXd fitted = factor.matrixL().solve(cross.topRightCorner(p, 1));
     const double squares = cross(p, p) - fitted.squaredNorm();
     const double log_det = 2 * factor.matrixLLT().diagonal().array().max(1e-300).log().sum();
-    return -0.5 * (degrees_ * std::log(std::max(squares / degrees_, 1e-300)) +
-                   filter.log_determinant() + log_det);
+    const double variance = std::max(squares / degrees_, 1e-300);
+    return {-0.5 * (degrees_ * std::log(variance) + filter.log_determinant() + log_det), variance};
   }
 
  private:
@@ -96,7 +100,7 @@ BestNoise BestNoiseOf(const std::vector<double>& outlying, const Likelihoods& li
                       TimeSeries* fitted) {
   TimeSeries& series = *fitted;
   const auto likelihood = [&](double ratio, double half_life) {
-    return likelihoods.Of(ErrorFilter(ratio, half_life, series));
+    return likelihoods.Of(ErrorFilter(ratio, half_life, series)).log;
   };
   double highest = -HUGE_VAL, usual = 0;
   for (const double k : kPerMeasurement) {
@@ -134,6 +138,41 @@ BestNoise BestNoiseOf(const std::vector<double>& outlying, const Likelihoods& li
     }
   }
   return best;
+}
+
+// The mean of all errors that were tried, weighted by their restricted likelihoods: two that are
+// almost as likely do not change places for a last digit of the data. Errors that no days share have
+// the weight of all others before the data speak.
+BestNoise MeanNoiseOf(const Likelihoods& likelihoods, const TimeSeries& series) {
+  struct Tried {
+    double ratio;
+    double half_life;
+    Likelihoods::Found found;
+  };
+  std::vector<Tried> tried;
+  const auto add = [&](double ratio, double half_life) {
+    tried.push_back({ratio, half_life, likelihoods.Of(ErrorFilter(ratio, half_life, series))});
+  };
+  add(0, 0);
+  const double span = series.days.back() - series.days.front();
+  for (const double half_life : kHalfLives) {
+    if (half_life > span / 3) break;
+    for (const double ratio : kRatios) add(ratio, half_life);
+  }
+  tried.front().found.log += std::log(std::max<double>(1, static_cast<double>(tried.size()) - 1));
+  double highest = -HUGE_VAL;
+  for (const Tried& one : tried) highest = std::max(highest, one.found.log);
+  double own = 0, shared = 0, half_life = 0;
+  for (const Tried& one : tried) {
+    const double weight = std::exp(one.found.log - highest) * one.found.variance;
+    own += weight;
+    if (!(one.ratio > 0)) continue;
+    shared += weight * one.ratio;
+    half_life += weight * one.ratio * std::log(one.half_life);
+  }
+  constexpr double kNone = 1e-3;  // of e: less is not shared
+  if (!(shared > kNone * own)) return {};
+  return {shared / own, std::exp(half_life / shared)};
 }
 
 // Independent days that would determine the sizes of the errors as well as these.
@@ -237,6 +276,8 @@ TimeFit FitTime(const TimeSeries& series, const Eigen::MatrixXd& design) {
     }
     if (!changed) break;
   }
+  noise = MeanNoiseOf(likelihoods, weighted);
+  fit = RegressionOf(ErrorFilter(noise.ratio, noise.half_life, weighted), weighted, design);
   TimeFit out;
   out.noise = {std::sqrt(fit.variance), std::sqrt(fit.variance * noise.ratio), noise.half_life};
   out.spread = weighted.spread;

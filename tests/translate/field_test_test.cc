@@ -214,7 +214,7 @@ TEST(FieldTest, RefusesWhatCannotBeTested) {
               HasSubstr("--rated-W"));
   options.rated_W = -1;
   EXPECT_THAT(MessageOf(JudgeFieldTest(Power(400, 4), measurement, options, {})),
-              HasSubstr("above 0 W"));
+              HasSubstr("rated-W = -1 is outside [1e-06, 1000000]"));
   options.rated_W = 400;
   EXPECT_THAT(MessageOf(JudgeFieldTest(UncertainOutput{}, measurement, options, {})),
               HasSubstr("nothing to test"));

@@ -160,6 +160,9 @@ Flag& Flag::Within(double lower, double upper) {
     double value = 0;
     if (!CLI::detail::lexical_cast(text, value)) return std::string();
     if (value >= lower && value <= upper) return std::string();
+    if (lower == -kOverflowCode && upper == kOverflowCode) {
+      return "expected a finite number, found " + text;
+    }
     return text + " is outside [" + NumberText(lower) + ", " + NumberText(upper) + "]";
   };
   impl_->option->check(in_range, "");

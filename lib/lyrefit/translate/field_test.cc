@@ -25,9 +25,6 @@ constexpr double kDecided = 0.8;  // least probability of a verdict
 Expected<void> CheckFieldTest(const UncertainOutput& standard, const FieldTestOptions& options) {
   TRY(ValidateOptions(options, kFieldTestOptionTable));
   if (!options.rated_W) return Fail("no rating to test against: state --rated-W");
-  if (!(*options.rated_W > 0)) {
-    return Fail("expected a rated power above 0 W, found " + NumberText(*options.rated_W));
-  }
   if (!(standard.value > 0) || !std::isfinite(standard.standard_uncertainty)) {
     return Fail("no Pmax at standard conditions with an uncertainty: nothing to test");
   }

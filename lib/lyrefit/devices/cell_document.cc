@@ -28,6 +28,11 @@ std::string SweepPower(const CellReport& report, const CellSweep& sweep) {
     const std::string efficiency = sweep.no_efficiency_because.empty()
                                        ? "efficiency " + PercentText(sweep.efficiency)
                                        : "no efficiency, since the light is not known";
+    const bool begins_above = !std::isfinite(sweep.jsc_mA_cm2);
+    if (begins_above) {
+      return fmt::format("{} (Voc {} V; the sweep does not reach 0 V: no Jsc, no FF)", efficiency,
+                         Significant(sweep.key.open_circuit_voltage_V, 4));
+    }
     return fmt::format(
         "{} (Jsc {} mA/cm2, Voc {} V, FF {})", efficiency, Significant(sweep.jsc_mA_cm2, 4),
         Significant(sweep.key.open_circuit_voltage_V, 4), PercentText(sweep.key.fill_factor));
@@ -38,9 +43,33 @@ std::string SweepPower(const CellReport& report, const CellSweep& sweep) {
                      PercentText(sweep.key.fill_factor));
 }
 
+// "0.02, 0.2, 2" of the pairs of several rates.
+std::string OverRates(const CellReport& report, double (*value)(const CellReport&, int pair)) {
+  std::string text;
+  for (const int i : report.over_rate->pairs) {
+    text += (text.empty() ? "" : ", ") + Significant(value(report, i), 2);
+  }
+  return text;
+}
+
+double RateOfPair(const CellReport& report, int pair) {
+  return report.sweeps[report.pairs[pair].forward].scan_rate_V_s;
+}
+
 std::string HysteresisVerdict(const CellReport& report) {
   if (report.pairs.empty()) return "";
+  if (report.over_rate) {
+    const auto gap = [](const CellReport& r, int pair) { return r.pairs[pair].gap_percent; };
+    const std::string& finding = report.over_rate->finding;
+    return fmt::format(" Hysteresis over rate: a gap of {} % of Jsc at {} V/s; {}.",
+                       OverRates(report, gap), OverRates(report, RateOfPair),
+                       finding.empty() ? "none to speak of" : finding);
+  }
   const DirectionPair& pair = report.pairs.front();
+  if (pair.sense == HysteresisSense::kNeither) {
+    return fmt::format(" Hysteresis: a gap of {} % of Jsc; the index by power, {}, is below its noise.",
+                       Significant(pair.gap_percent, 2), PercentText(pair.index_power, 2));
+  }
   if (pair.sense == HysteresisSense::kNone) {
     return fmt::format(" No hysteresis: a gap of {} % of Jsc between the directions.",
                        Significant(pair.gap_percent, 2));
@@ -48,6 +77,17 @@ std::string HysteresisVerdict(const CellReport& report) {
   return fmt::format(" Hysteresis, {}: index by power {}, gap {} % of Jsc{}.", ToText(pair.sense),
                      PercentText(pair.index_power, 2), Significant(pair.gap_percent, 2),
                      pair.cross ? " (the curves cross, which the index hides)" : "");
+}
+
+// The fill factor without series resistance that is measured, and what is lost beside it.
+std::string PseudoVerdict(const CellReport& report) {
+  const PseudoFillFactor& pseudo = report.pseudo;
+  if (pseudo.source != PseudoSource::kSunsVoc || !std::isfinite(pseudo.value)) return "";
+  return fmt::format(
+      " Pseudo-FF {} (measured, Suns-Voc): series resistance costs {}, recombination and shunt {}.",
+      PercentText(pseudo.value),
+      PercentText(pseudo.value - report.sweeps[report.main].key.fill_factor, 2),
+      PercentText(pseudo.ideal - pseudo.value, 2));
 }
 
 std::string LossVerdict(const CellReport& report) {
@@ -70,7 +110,9 @@ Section CellHead(const CellReport& report) {
   AddField("device",
            fmt::format("{}, {:.4g} C, area {}", Plural(report.cells_in_series, "cell"),
                        report.temperature_C,
-                       KnowsArea(report) ? fmt::format("{:.6g} cm2", report.area_cm2)
+                       report.per_area ? std::string("not stated: all is of 1 cm2")
+                       : KnowsArea(report)
+                           ? fmt::format("{:.6g} cm2", report.area_cm2)
                                          : std::string("not known: give --area-cm2")),
            &head);
   return head;
@@ -115,6 +157,7 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
     table.rows.push_back({name, value, definition});
   };
   add("index by power", PercentText(pair.index_power), "(Pmp_rev - Pmp_fwd) / Pmp_rev");
+  add("its noise", PercentText(pair.index_noise, 2), "standard error, of the noise of both");
   add("index by area", PercentText(pair.index_area),
       "1 - A_fwd / A_rev, A below J from 0 V to Voc");
   add("index at 0.8 Voc", PercentText(pair.index_at_80), "(J_rev - J_fwd) / J_rev, Voc of reverse");
@@ -131,16 +174,76 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
     AddSentence("No hysteresis to speak of.", &section);
     return section;
   }
-  AddSentence(fmt::format("Hysteresis, {}: {} gives more power.{}", ToText(pair.sense),
-                          pair.sense == HysteresisSense::kNormal ? "reverse" : "forward",
-                          pair.cross ? " The curves cross: the index by power hides the gap." : ""),
+  const char* const more = pair.sense == HysteresisSense::kNormal ? "reverse" : "forward";
+  const char* const hides = " The curves cross: the index by power hides the gap.";
+  AddSentence(pair.sense == HysteresisSense::kNeither
+                  ? std::string("Hysteresis: a gap, while the index by power is below its noise.")
+                  : fmt::format("Hysteresis, {}: {} gives more power.{}", ToText(pair.sense), more,
+                                pair.cross ? hides : ""),
               &section);
-  AddSentence(
-      fmt::format("Possible: {}. A sweep at a second rate decides. Neither direction gives the "
-                  "steady power: track the maximum power point.",
-                  fmt::join(pair.causes, ", ")),
-      &section);
+  AddSentence(fmt::format("Possible: {}.{} Neither direction gives the steady power: track the "
+                          "maximum power point.",
+                          fmt::join(pair.causes, ", "),
+                          report.over_rate ? "" : " A sweep at a second rate decides."),
+              &section);
   return section;
+}
+
+Section RateSection(const CellReport& report) {
+  Section section = {"Hysteresis over the rate"};
+  if (!report.over_rate) return section;
+  block::Table table = {"rrrrrl",
+                        {{"rate", "index by power", "its noise", "gap", "noise in it", "sense"},
+                         {"V/s", "%", "%", "% of Jsc", "%", ""}}};
+  for (const int i : report.over_rate->pairs) {
+    const DirectionPair& pair = report.pairs[i];
+    table.rows.push_back(
+        {Significant(RateOfPair(report, i), 3), Significant(100 * pair.index_power, 3),
+         Significant(100 * pair.index_noise, 2), Significant(pair.gap_percent, 3),
+         Significant(pair.noise_percent, 2), ToText(pair.sense)});
+  }
+  AddTable(std::move(table), &section);
+  if (report.over_rate->finding.empty()) {
+    AddSentence("No rate has hysteresis to speak of.", &section);
+    return section;
+  }
+  AddSentence(FullSentence(report.over_rate->finding), &section);
+  AddField("left", fmt::format("{}", fmt::join(report.over_rate->causes, ", ")), &section);
+  return section;
+}
+
+// The lit sweeps of a cell over hours, each beside the first of its direction and light.
+Section HourSection(const CellReport& report) {
+  Section section = {"Over hours"};
+  const std::vector<HourRow> rows = RowsOfHours(report);
+  if (rows.empty()) return section;
+  block::Table table = {"rlrrrrr",
+                        {{"hours", "", "Voc", "Jsc", "FF", "Pmp", "Pmp"},
+                         {"", "", "% of first", "% of first", "% of first", "% of first", "% per h"}}};
+  for (const HourRow& row : rows) {
+    table.rows.push_back(
+        {Significant(row.hours, 3), ToText(report.sweeps[row.sweep].direction),
+         Significant(100 * row.voc, 4), Significant(100 * row.isc, 4), Significant(100 * row.ff, 4),
+         Significant(100 * row.power, 4),
+         row.since_h > 0 ? fmt::format("{:+.2g}", 100 * (row.power - 1) / row.since_h) : "-"});
+  }
+  AddTable(std::move(table), &section);
+  section.blocks.emplace_back(block::Legend{"per h: mean change of Pmp since the first sweep"});
+  return section;
+}
+
+std::string HourVerdict(const CellReport& report) {
+  const HourRow* last = nullptr;
+  const std::vector<HourRow> rows = RowsOfHours(report);
+  for (const HourRow& row : rows) {
+    const bool like_main =
+        report.sweeps[row.sweep].direction == report.sweeps[report.main].direction;
+    if (like_main && (last == nullptr || row.hours > last->hours)) last = &row;
+  }
+  if (last == nullptr) return "";
+  return fmt::format(" After {} h: Pmp {} of the first, Voc {}, Jsc {}, FF {}.",
+                     Significant(last->since_h, 3), PercentText(last->power),
+                     PercentText(last->voc), PercentText(last->isc), PercentText(last->ff));
 }
 
 void AddLocalIdealities(const IdealityOverLight& over, Section* section) {
@@ -156,8 +259,7 @@ void AddLocalIdealities(const IdealityOverLight& over, Section* section) {
   if (over.rises_to_low_light) {
     AddSentence(
         "The local n rises towards low light, as a shunt makes it: n / (1 - Voc / (Rsh Isc)). One "
-        "line through all points means little; the values at the brightest light are nearest to "
-        "the junction's.",
+        "line through all points means little.",
         section);
   }
 }
@@ -166,6 +268,11 @@ Section IdealitySection(const CellReport& report) {
   Section section = {"Ideality n"};
   for (const IdealityOverLight& over : report.over_light) {
     AddField(over.source == SweepKind::kSunsVoc ? "Suns-Voc" : "Voc over light",
+             fmt::format("n = {} beside a shunt, by least squares of light = Is exp(Voc / n) + Voc / "
+                         "Rsh over the lights around Isc; noise of a voltage {} mV",
+                         RangedText(over.junction), Significant(1000 * over.noise_V, 2)),
+             &section);
+    AddField("one line",
              fmt::format("n = {}: (q / k T) dVoc / dln(Isc) by least squares over {} points",
                          RangedText(over.n), over.points.size()),
              &section);
@@ -233,6 +340,36 @@ Section StatedSection(const CellReport& report) {
 
 }  // namespace
 
+std::vector<HourRow> RowsOfHours(const CellReport& report) {
+  std::vector<HourRow> rows;
+  double least = kInfinity, most = -kInfinity;
+  for (const CellSweep& sweep : report.sweeps) {
+    least = std::fmin(least, sweep.elapsed_h);
+    most = std::fmax(most, sweep.elapsed_h);
+  }
+  if (!(most > least)) return rows;
+  constexpr double kSameLight = 0.02;
+  for (std::size_t i = 0; i < report.sweeps.size(); ++i) {
+    const CellSweep& sweep = report.sweeps[i];
+    if (sweep.kind != SweepKind::kLit || std::isnan(sweep.elapsed_h)) continue;
+    const CellSweep* first = nullptr;
+    for (const CellSweep& other : report.sweeps) {
+      const double light = other.irradiance_W_m2;
+      const bool alike = other.kind == SweepKind::kLit && other.direction == sweep.direction &&
+                         std::fabs(light - sweep.irradiance_W_m2) <= kSameLight * light;
+      if (alike && (first == nullptr || other.elapsed_h < first->elapsed_h)) first = &other;
+    }
+    const KeyPoints &own = sweep.key, &at = first->key;
+    rows.push_back({static_cast<int>(i), sweep.elapsed_h, sweep.elapsed_h - first->elapsed_h,
+                    own.open_circuit_voltage_V / at.open_circuit_voltage_V,
+                    own.short_circuit_current_A / at.short_circuit_current_A,
+                    own.fill_factor / at.fill_factor, own.max_power_W / at.max_power_W});
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const HourRow& a, const HourRow& b) { return a.hours < b.hours; });
+  return rows;
+}
+
 std::string PercentText(double fraction, int digits) {
   if (!std::isfinite(fraction)) return "-";
   return Significant(100 * fraction, digits) + " %";
@@ -248,29 +385,42 @@ std::string CellVerdict(const CellReport& report) {
   std::string text;
   if (report.main == -1) text = "No lit curve that delivers power.";
   if (report.main == -1 && report.dark && std::isfinite(report.dark->least_n)) {
-    text += fmt::format(" Smallest n of the dark curve: {}.", Significant(report.dark->least_n, 3));
+    const DarkIdeality& dark = *report.dark;
+    text += std::isfinite(dark.fitted.value)
+                ? fmt::format(" n of the dark curve: {} by the fit; smallest local n {}, with what "
+                              "shunt and Rs add.",
+                              RangedText(dark.fitted), Significant(dark.least_n, 3))
+                : fmt::format(" Smallest local n of the dark curve: {}, with what shunt and Rs add.",
+                              Significant(dark.least_n, 3));
   }
   for (const FillFactorLosses& losses : report.losses) {
     const CellSweep& sweep = report.sweeps[losses.sweep];
+    const CellSweep& main = report.sweeps[report.main];
+    // Of a series the first speaks.
+    if (std::fabs(sweep.elapsed_h - main.elapsed_h) > 0.05 * main.elapsed_h + 0.02 ||
+        std::fabs(sweep.scan_rate_V_s / main.scan_rate_V_s - 1) > 0.05) {
+      continue;
+    }
     text += (text.empty() ? "" : " ") +
             FullSentence(fmt::format("{}: {}", sweep.name, SweepPower(report, sweep)));
   }
   text += HysteresisVerdict(report);
+  if (report.main != -1) text += HourVerdict(report);
   for (const IdealityOverLight& over : report.over_light) {
     const char* source = over.source == SweepKind::kLit ? "over light" : "from Suns-Voc";
-    text +=
-        over.rises_to_low_light
-            ? fmt::format(" n {}: {} at the brightest light, {} at the darkest.", source,
-                          Significant(over.local.back().n, 3), Significant(over.local.front().n, 3))
-            : fmt::format(" n {} {}.", source, RangedText(over.n, 3));
+    text += over.rises_to_low_light
+                ? fmt::format(" n {} {} beside a shunt; the local n rises to {} at low light.",
+                              source, RangedText(over.junction, 3),
+                              Significant(over.local.front().n, 3))
+                : fmt::format(" n {} {}.", source, RangedText(over.n, 3));
   }
   if (report.superposition && std::isfinite(report.superposition->rms_percent)) {
     text += report.superposition->departs
-                ? fmt::format(" Lit and dark curve do not superpose: {} % of Jsc.",
-                              Significant(report.superposition->rms_percent, 2))
+                ? fmt::format(" Lit and dark curve do not superpose: {} % of Jsc{}.",
+                              Significant(report.superposition->rms_percent, 2), WarmthText(report))
                 : std::string(" Lit and dark curve superpose.");
   }
-  return text + LossVerdict(report);
+  return text + PseudoVerdict(report) + LossVerdict(report);
 }
 
 Document CellDocument(const CellReport& report) {
@@ -280,6 +430,8 @@ Document CellDocument(const CellReport& report) {
                                    SweepSection(report)};
   for (const DirectionPair& pair : report.pairs)
     sections.push_back(Further(PairSection(report, pair)));
+  sections.push_back(RateSection(report));
+  sections.push_back(HourSection(report));
   sections.push_back(Further(IdealitySection(report)));
   sections.push_back(Further(SeriesResistanceSection(report)));
   sections.push_back(Further(FillFactorSection(report)));

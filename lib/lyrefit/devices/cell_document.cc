@@ -207,7 +207,7 @@ Section RateSection(const CellReport& report) {
     AddSentence("No rate has hysteresis to speak of.", &section);
     return section;
   }
-  AddSentence(FullSentence(report.over_rate->finding), &section);
+  AddSentence("T" + report.over_rate->finding.substr(1) + ".", &section);
   AddField("left", fmt::format("{}", fmt::join(report.over_rate->causes, ", ")), &section);
   return section;
 }

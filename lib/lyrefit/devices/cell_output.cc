@@ -105,6 +105,7 @@ Json JointJson(const JointEstimate& joint) {
           {"warmer", joint.warmer},
           {"warmer_p", joint.warmer_p},
           {"either", joint.either},
+          {"voc_per_K", joint.voc_per_K},
           {"contacts", joint.contacts},
           {"contacts_p", joint.contacts_p},
           {"contact_loss_W", joint.contact_loss_W},

@@ -299,6 +299,7 @@ struct JointEstimate : EstimateReport {
   // it, or explain themselves by a second diode as well (`either`).
   bool warmer = false;
   double warmer_p = kUnknown;  // p-value of one temperature against two; NaN: none or all are lit
+  double voc_per_K = kUnknown;  // of the law behind dT, V: what the readings tell is the product
   bool either = false;
   double contacts_p =
       kUnknown;  // p-value of one series resistance against it; NaN of a single cell

@@ -207,9 +207,10 @@ std::string WarmerText(const JointEstimate& joint) {
   if (!joint.warmer) return fmt::format("one for all sweeps ({} of one against two){}", p, either);
   const auto at = std::find_if(joint.estimates.begin(), joint.estimates.end(),
                                [](const Estimate& e) { return e.info.symbol == "dT"; });
-  return fmt::format("the lit sweeps are {:+.2g} K ({}) from the dark one, by the usual loss of Voc "
-                     "({} of one temperature){}",
-                     at->refined, Range(at->low_95, at->high_95), p, either);
+  return fmt::format(
+      "the lit sweeps are about {:+.2g} K from the dark one: they miss Voc of its diode by {:+.2g} mV, "
+      "and {:.2g} mV/K are usual ({} of one temperature){}",
+      at->refined, 1e3 * joint.voc_per_K * at->refined, 1e3 * joint.voc_per_K, p, either);
 }
 
 }  // namespace
@@ -219,7 +220,7 @@ std::string WarmthText(const CellReport& report) {
   const auto& all = report.joint->estimates;
   const auto at = std::find_if(all.begin(), all.end(),
                                [](const Estimate& e) { return e.info.symbol == "dT"; });
-  return fmt::format(", as a lit cell {:.2g} K {} than the dark one makes it",
+  return fmt::format(", as a lit cell about {:.2g} K {} than the dark one makes it",
                      std::fabs(at->refined), at->refined > 0 ? "warmer" : "colder");
 }
 

@@ -281,6 +281,13 @@ ShuntFound FindShunt(const CellProblem& problem, const RefineEnd& end, const Joi
                         "collection is needed"};
 }
 
+// Change of Voc with the temperature by the law of a heated block.
+double VocPerKelvin(const JointCell& cell) {
+  const CellProblem& problem = cell.problem;
+  const double thermal_V = problem.device.module_thermal_voltage_V;
+  return (cell.voc_V - (problem.gap_over_thermal + 3) * thermal_V) / problem.temperature_K;
+}
+
 // What one diode at one temperature is tested against.
 struct JointCandidates {
   std::unique_ptr<JointCandidate> second_diode;
@@ -379,6 +386,7 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
   const ResistanceLosses losses = FindResistanceLosses(fit, found.end);
   joint.contact_loss_W = losses.contacts_W;
   joint.series_loss = losses.of_power;
+  joint.voc_per_K = VocPerKelvin(fit.cell);
   return joint;
 }
 

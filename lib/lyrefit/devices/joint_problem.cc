@@ -24,7 +24,9 @@ constexpr double kLeastAgedShare = 0.005;       // of the area
 constexpr double kSecondIdeality = 2;           // recombination in the depletion region
 constexpr double kLeastFactor = 0.2;            // of the lights of a Suns-Voc trace
 constexpr double kMostFactor = 5;
-constexpr double kMostWarmer_K = 5;             // of lit sweeps above the dark one
+// Of lit sweeps above the dark one. Voc of some devices moves half as much again in a kelvin as by the
+// law here: this holds 5 K of each.
+constexpr double kMostWarmer_K = 8;
 constexpr double kExact = 1e-9;           // least error of a reading, of Isc or Voc
 constexpr std::size_t kFewReadings = 12;  // that do not show their own errors
 constexpr double kErrorOfFew = 1e-3;      // least error of one of them, of Isc or Voc

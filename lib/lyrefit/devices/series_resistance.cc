@@ -70,18 +70,24 @@ Conductance AtShortCircuit(const CellSweep& sweep, double reach_V) {
 }
 
 // What a classical method is off by, since it takes the current that a junction loses for
-// Isc - I: ((G1 - G2) Vj - Rs (G1 Isc1 - G2 Isc2)) / (Gj (Isc1 - Isc2)) with the conductances G at
-// short circuit, Isc2 = 0 in the dark, and Gj of the junction at its voltage Vj.
+// Isc - I: the current (G1 - G2) Vj - Rs (G1 Isc1 - G2 Isc2) over the conductance Gj of the junction at
+// its voltage Vj and over Isc1 - Isc2, with the conductances G at short circuit, Isc2 = 0 in the
+// dark. Gj falls with the current that the junction is left with of `lost_A`.
 struct MethodError {
   double bias_ohm = 0;
   double error_ohm = 0;  // of the bias
 };
 
 MethodError ErrorOfMethod(const Conductance& one, double isc1_A, const Conductance& two,
-                          double isc2_A, double junction_V, double junction_S, double ohm) {
+                          double isc2_A, double junction_V, double junction_S, double ohm,
+                          double lost_A) {
+  constexpr double kMostPart = 0.9, kOfBias = 0.15;  // of what the linear terms leave out
   const double per = junction_S * (isc1_A - isc2_A);
-  const double bias = (one.S - two.S) * junction_V - ohm * (one.S * isc1_A - two.S * isc2_A);
-  return {bias / per, junction_V * std::hypot(one.error_S, two.error_S) / per};
+  const double off = (one.S - two.S) * junction_V - ohm * (one.S * isc1_A - two.S * isc2_A);
+  const double part = std::min(kMostPart, off / lost_A);
+  const double bias = off / per * (part == 0 ? 1 : -std::log1p(-part) / part);
+  const double by_slopes = junction_V * std::hypot(one.error_S, two.error_S) / per;
+  return {bias, std::hypot(by_slopes, kOfBias * bias)};
 }
 
 // Conductance of the junction behind a slope that the series resistance flattens.
@@ -139,7 +145,7 @@ SeriesResistance RsFromTwoLights(const CellSweep& brighter, const CellSweep& dar
   const double reach = brighter.key.open_circuit_voltage_V / kNearShortCircuit;
   const MethodError method = ErrorOfMethod(
       AtShortCircuit(brighter, reach), isc1, AtShortCircuit(darker, reach), isc2,
-      at.voltage_V + at.current_A * ohm, BehindSeries(slope, ohm), ohm);
+      at.voltage_V + at.current_A * ohm, BehindSeries(slope, ohm), ohm, isc1 - at.current_A);
   return WithErrors(std::move(found), noise / slope / (isc1 - isc2), method,
                     "a light that is not as stated, or a cell that changed between the curves");
 }
@@ -165,7 +171,8 @@ SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, const R
   const double reach = lit.key.open_circuit_voltage_V / kNearShortCircuit;
   MethodError method =
       ErrorOfMethod(AtShortCircuit(lit, reach), isc, AtShortCircuit(dark, reach), 0,
-                    at.voltage_V + imp * ohm, BehindSeries(slope, own ? dark_rs_ohm : ohm), ohm);
+                    at.voltage_V + imp * ohm, BehindSeries(slope, own ? dark_rs_ohm : ohm), ohm,
+                    isc - imp);
   method.bias_ohm *= isc / per;
   method.error_ohm *= isc / per;
   const double of_dark = own ? (isc - imp) / imp * (dark_rs.high_95 - dark_rs.low_95) / 4 : 0;
@@ -197,7 +204,8 @@ SeriesResistance RsFromVoc(const CellSweep& lit, const IdealityOverLight& over) 
   const Conductance own =
       AtShortCircuit(lit, lit.key.open_circuit_voltage_V / kNearShortCircuit);
   const Conductance dark = {shunt.value, (shunt.high_95 - shunt.low_95) / 4};
-  MethodError method = ErrorOfMethod(own, isc, dark, 0, at.voltage_V + imp * ohm, 1 / slope, ohm);
+  MethodError method =
+      ErrorOfMethod(own, isc, dark, 0, at.voltage_V + imp * ohm, 1 / slope, ohm, light);
   // The trace may be of another light or temperature than it says: it misses Voc of the curve.
   const double off_V = lit.key.open_circuit_voltage_V - VocAt(over.points, isc);
   if (std::isfinite(off_V)) method.error_ohm = std::hypot(method.error_ohm, off_V / imp);

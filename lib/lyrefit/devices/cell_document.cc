@@ -67,8 +67,9 @@ std::string HysteresisVerdict(const CellReport& report) {
   }
   const DirectionPair& pair = report.pairs.front();
   if (pair.sense == HysteresisSense::kNeither) {
-    return fmt::format(" Hysteresis: a gap of {} % of Jsc; the index by power, {}, is below its noise.",
-                       Significant(pair.gap_percent, 2), PercentText(pair.index_power, 2));
+    return fmt::format(
+        " Hysteresis: a gap of {} % of Jsc; the index by power, {}, is below its noise.",
+        Significant(pair.gap_percent, 2), PercentText(pair.index_power, 2));
   }
   if (pair.sense == HysteresisSense::kNone) {
     return fmt::format(" No hysteresis: a gap of {} % of Jsc between the directions.",
@@ -110,10 +111,9 @@ Section CellHead(const CellReport& report) {
   AddField("device",
            fmt::format("{}, {:.4g} C, area {}", Plural(report.cells_in_series, "cell"),
                        report.temperature_C,
-                       report.per_area ? std::string("not stated: all is of 1 cm2")
-                       : KnowsArea(report)
-                           ? fmt::format("{:.6g} cm2", report.area_cm2)
-                                         : std::string("not known: give --area-cm2")),
+                       report.per_area     ? std::string("not stated: all is of 1 cm2")
+                       : KnowsArea(report) ? fmt::format("{:.6g} cm2", report.area_cm2)
+                                           : std::string("not known: give --area-cm2")),
            &head);
   return head;
 }
@@ -197,10 +197,10 @@ Section RateSection(const CellReport& report) {
                          {"V/s", "%", "%", "% of Jsc", "%", ""}}};
   for (const int i : report.over_rate->pairs) {
     const DirectionPair& pair = report.pairs[i];
-    table.rows.push_back(
-        {Significant(RateOfPair(report, i), 3), Significant(100 * pair.index_power, 3),
-         Significant(100 * pair.index_noise, 2), Significant(pair.gap_percent, 3),
-         Significant(pair.noise_percent, 2), ToText(pair.sense)});
+    table.rows.push_back({Significant(RateOfPair(report, i), 3),
+                          Significant(100 * pair.index_power, 3),
+                          Significant(100 * pair.index_noise, 2), Significant(pair.gap_percent, 3),
+                          Significant(pair.noise_percent, 2), ToText(pair.sense)});
   }
   AddTable(std::move(table), &section);
   if (report.over_rate->finding.empty()) {
@@ -217,9 +217,10 @@ Section HourSection(const CellReport& report) {
   Section section = {"Over hours"};
   const std::vector<HourRow> rows = RowsOfHours(report);
   if (rows.empty()) return section;
-  block::Table table = {"rlrrrrr",
-                        {{"hours", "", "Voc", "Jsc", "FF", "Pmp", "Pmp"},
-                         {"", "", "% of first", "% of first", "% of first", "% of first", "% per h"}}};
+  block::Table table = {
+      "rlrrrrr",
+      {{"hours", "", "Voc", "Jsc", "FF", "Pmp", "Pmp"},
+       {"", "", "% of first", "% of first", "% of first", "% of first", "% per h"}}};
   for (const HourRow& row : rows) {
     table.rows.push_back(
         {Significant(row.hours, 3), ToText(report.sweeps[row.sweep].direction),
@@ -267,11 +268,14 @@ void AddLocalIdealities(const IdealityOverLight& over, Section* section) {
 Section IdealitySection(const CellReport& report) {
   Section section = {"Ideality n"};
   for (const IdealityOverLight& over : report.over_light) {
-    AddField(over.source == SweepKind::kSunsVoc ? "Suns-Voc" : "Voc over light",
-             fmt::format("n = {} beside a shunt, by least squares of light = Is exp(Voc / n) + Voc / "
-                         "Rsh over the lights around Isc; noise of a voltage {} mV",
-                         RangedText(over.junction), Significant(1000 * over.noise_V, 2)),
-             &section);
+    AddField(
+        over.source == SweepKind::kSunsVoc ? "Suns-Voc" : "Voc over light",
+        over.noise_V > 0
+            ? fmt::format("n = {} around Isc, beside a shunt: light = Is exp(Voc / n) + Voc / Rsh "
+                          "by least squares; noise of a voltage {} mV",
+                          RangedText(over.junction), Significant(1000 * over.noise_V, 2))
+            : fmt::format("n = {} around Isc", RangedText(over.junction)),
+        &section);
     AddField("one line",
              fmt::format("n = {}: (q / k T) dVoc / dln(Isc) by least squares over {} points",
                          RangedText(over.n), over.points.size()),
@@ -386,12 +390,14 @@ std::string CellVerdict(const CellReport& report) {
   if (report.main == -1) text = "No lit curve that delivers power.";
   if (report.main == -1 && report.dark && std::isfinite(report.dark->least_n)) {
     const DarkIdeality& dark = *report.dark;
-    text += std::isfinite(dark.fitted.value)
-                ? fmt::format(" n of the dark curve: {} by the fit; smallest local n {}, with what "
-                              "shunt and Rs add.",
-                              RangedText(dark.fitted), Significant(dark.least_n, 3))
-                : fmt::format(" Smallest local n of the dark curve: {}, with what shunt and Rs add.",
-                              Significant(dark.least_n, 3));
+    text +=
+        std::isfinite(dark.fitted.value)
+            ? fmt::format(
+                  " n of the dark curve: {} by the fit; smallest local n {}, with what "
+                  "shunt and Rs add.",
+                  RangedText(dark.fitted), Significant(dark.least_n, 3))
+            : fmt::format(" Smallest local n of the dark curve: {}, with what shunt and Rs add.",
+                          Significant(dark.least_n, 3));
   }
   for (const FillFactorLosses& losses : report.losses) {
     const CellSweep& sweep = report.sweeps[losses.sweep];
@@ -409,9 +415,8 @@ std::string CellVerdict(const CellReport& report) {
   for (const IdealityOverLight& over : report.over_light) {
     const char* source = over.source == SweepKind::kLit ? "over light" : "from Suns-Voc";
     text += over.rises_to_low_light
-                ? fmt::format(" n {} {} beside a shunt; the local n rises to {} at low light.",
-                              source, RangedText(over.junction, 3),
-                              Significant(over.local.front().n, 3))
+                ? fmt::format(" n {} {} around Isc; the local n rises to {} at low light.", source,
+                              RangedText(over.junction, 3), Significant(over.local.front().n, 3))
                 : fmt::format(" n {} {}.", source, RangedText(over.n, 3));
   }
   if (report.superposition && std::isfinite(report.superposition->rms_percent)) {

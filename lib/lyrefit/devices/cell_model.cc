@@ -50,8 +50,7 @@ void ChainToWarmth(const CellProblem& problem, const double* p, const std::vecto
   for (int diode = 0; diode < DiodeCount(problem.device); ++diode) {
     const int at_is = SaturationCurrentIndex(diode), at_n = IdealityIndex(diode);
     const double n = p[at_n - 1], by_log = row[at_is - 1] * device[at_is];
-    row[problem.warmth()] +=
-        row[at_n - 1] * n / problem.temperature_K + by_log * above.per_K / n;
+    row[problem.warmth()] += row[at_n - 1] * n / problem.temperature_K + by_log * above.per_K / n;
     row[at_n - 1] =
         row[at_n - 1] * (1 + kelvin / problem.temperature_K) - by_log * above.times_n / (n * n);
     row[at_is - 1] *= std::exp(above.times_n / n);

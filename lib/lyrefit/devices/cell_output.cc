@@ -9,9 +9,9 @@
 namespace lyrefit {
 
 LYREFIT_JSON_FIELDS(StatedKeyPoint, name, stated, found, source)
-LYREFIT_JSON_FIELDS(DirectionPair, forward, reverse, index_power, index_noise, index_area, index_at_80,
-                    index_at_50, gap_percent, noise_percent, voc_difference_V, isc_difference,
-                    ff_difference, sense, cross, causes)
+LYREFIT_JSON_FIELDS(DirectionPair, forward, reverse, index_power, index_noise, index_area,
+                    index_at_80, index_at_50, gap_percent, noise_percent, voc_difference_V,
+                    isc_difference, ff_difference, sense, cross, causes)
 LYREFIT_JSON_FIELDS(HysteresisOverRate, pairs, finding, causes)
 LYREFIT_JSON_FIELDS(VocPoint, light_A, voc_V)
 LYREFIT_JSON_FIELDS(LocalIdeality, low_A, high_A, n)
@@ -22,9 +22,9 @@ LYREFIT_JSON_FIELDS(PseudoFillFactor, value, ideal, source)
 LYREFIT_JSON_FIELDS(FillFactorPart, name, loss)
 LYREFIT_JSON_FIELDS(FillFactorLosses, sweep, ideal, without_resistances, without_series, fitted,
                     measured, parts, green_n1, green_fitted, missing)
-LYREFIT_JSON_FIELDS(Superposition, lit, dark, lit_rs_ohm, dark_rs_ohm, rs_from, not_with, rms_percent,
-                    largest_percent, largest_at_V, to_V, noise_percent, voc_shift_V, dark_scale,
-                    scaled_rms_percent, departs, causes, decides)
+LYREFIT_JSON_FIELDS(Superposition, lit, dark, lit_rs_ohm, dark_rs_ohm, rs_from, not_with,
+                    rms_percent, largest_percent, largest_at_V, to_V, noise_percent, voc_shift_V,
+                    dark_scale, scaled_rms_percent, departs, causes, decides)
 
 namespace {
 

@@ -22,7 +22,7 @@ Section JointSection(const CellReport& report);
 
 // A lit sweep of a series over hours, in parts of the first one of its direction and light.
 struct HourRow {
-  int sweep;       // index into CellReport::sweeps
+  int sweep;  // index into CellReport::sweeps
   double hours;
   double since_h;  // the first one
   double voc;

@@ -61,8 +61,8 @@ Panel LightPanel(const CellReport& report) {
     for (const VocPoint& point : over.points) points.Add(point.light_A, point.voc_V);
     Series line{SeriesKind::kLine, LookOf(index++), 1};
     const double n = over.junction.value;
-    line.name = fmt::format("n = {}{}", Significant(n, 3),
-                            over.rises_to_low_light ? " (beside a shunt)" : "");
+    line.name =
+        fmt::format("n = {}{}", Significant(n, 3), over.rises_to_low_light ? " (around Isc)" : "");
     // Through the brightest point, down to the darkest light.
     const VocPoint &top = over.points.back(), &bottom = over.points.front();
     const double thermal_V =
@@ -115,8 +115,8 @@ Panel RatePanel(const CellReport& report) {
     index.Add(rate, 100 * pair.index_power);
   }
   for (const Series* series : {&gap, &index}) {
-    panel.notes.push_back({series->name, series->look.colour, 0.97,
-                           series == &gap ? 0.95 : 0.87, "right"});
+    panel.notes.push_back(
+        {series->name, series->look.colour, 0.97, series == &gap ? 0.95 : 0.87, "right"});
   }
   panel.series = {std::move(gap), std::move(index)};
   return panel;
@@ -125,8 +125,10 @@ Panel RatePanel(const CellReport& report) {
 // Voc, FF and power of the direction of the main sweep over hours.
 Panel HourPanel(const CellReport& report, const std::vector<HourRow>& rows) {
   Panel panel{"Over hours", {"Hours"}, {"% of the first sweep"}};
-  const std::pair<const char*, double HourRow::*> quantities[] = {
-      {"Voc", &HourRow::voc}, {"Jsc", &HourRow::isc}, {"FF", &HourRow::ff}, {"Pmp", &HourRow::power}};
+  const std::pair<const char*, double HourRow::*> quantities[] = {{"Voc", &HourRow::voc},
+                                                                  {"Jsc", &HourRow::isc},
+                                                                  {"FF", &HourRow::ff},
+                                                                  {"Pmp", &HourRow::power}};
   int index = 0;
   for (const auto& [name, quantity] : quantities) {
     Series series{SeriesKind::kLineAndPoints, LookOf(index), 1.5, 0.8};

@@ -59,9 +59,9 @@ struct CellSweep {
   SweepKind kind = SweepKind::kLit;
   ScanDirection direction = ScanDirection::kForward;
   double irradiance_W_m2 = kUnknown;
-  bool irradiance_known = true;   // false: a default is assumed
+  bool irradiance_known = true;     // false: a default is assumed
   double scan_rate_V_s = kUnknown;  // that is stated, else of the times of the readings
-  double elapsed_h = kUnknown;      // hours of operation or light before it, or since the first sweep
+  double elapsed_h = kUnknown;    // hours of operation or light before it, or since the first sweep
   std::vector<double> voltage_V;  // rising; equal voltages are averaged
   std::vector<double> current_A;  // of each voltage
   double suns_voc_A = kUnknown;   // see IvCurve::suns_voc_A
@@ -110,9 +110,10 @@ struct DirectionPair {
   int forward = 0;  // index into CellReport::sweeps
   int reverse = 0;  // index into CellReport::sweeps
   double index_power =
-      kUnknown;                  // (Pmp_rev - Pmp_fwd) / Pmp_rev; doi:10.1021/acsenergylett.8b01627
-  double index_noise = kUnknown;  // standard error of the index by power, of the noise of the readings
-  double index_area = kUnknown;  // 1 - A_fwd / A_rev, A the area below J from 0 V to its own Voc
+      kUnknown;  // (Pmp_rev - Pmp_fwd) / Pmp_rev; doi:10.1021/acsenergylett.8b01627
+  double index_noise =
+      kUnknown;  // standard error of the index by power, of the noise of the readings
+  double index_area = kUnknown;     // 1 - A_fwd / A_rev, A the area below J from 0 V to its own Voc
   double index_at_80 = kUnknown;    // (J_rev - J_fwd) / J_rev at 0.8 Voc of the reverse sweep
   double index_at_50 = kUnknown;    // the same at 0.5 Voc
   double gap_percent = kUnknown;    // rms of J_rev - J_fwd from 0 V to the larger Voc, of Jsc_rev
@@ -152,10 +153,11 @@ struct IdealityOverLight {
   std::vector<VocPoint> points;        // by rising light
   Ranged n;                            // least squares over all points
   // Of the junction beside a shunt, light = Is exp(Voc / n) + Voc / Rsh by least squares over the
-  // lights from 1/30 to 3 times Isc of the brightest lit curve.
+  // lights from 1/30 to 3 times Isc of the brightest lit curve; of fewer than 12 lights from the two
+  // around that Isc.
   Ranged junction;
-  Ranged shunt_S;                      // of that shunt, 0 where none is seen
-  double noise_V = 0;                  // of a voltage, from second differences over ln(light)
+  Ranged shunt_S;      // of that shunt, 0 where none is seen
+  double noise_V = 0;  // of a voltage, by the scatter around this; 0 of few lights
   // By rising light: of points that are so far apart that noise is at most 5 % of n.
   std::vector<LocalIdeality> local;
   // Whether the local n rises towards low light, as a shunt makes it: n / (1 - Voc / (Rsh Isc)).
@@ -256,7 +258,7 @@ struct Superposition {
   int dark = 0;           // index of the dark one
   double lit_rs_ohm = 0;  // that were taken off
   double dark_rs_ohm = 0;
-  std::string rs_from;                // method of the one in the light
+  std::string rs_from;   // method of the one in the light
   std::string not_with;  // method whose estimate leaves a departure; empty: none was tried before
   double rms_percent = kUnknown;      // of J_light - (Jsc - J_dark) from 0 V to `to_V`, of Jsc
   double largest_percent = kUnknown;  // signed
@@ -298,7 +300,7 @@ struct JointEstimate : EstimateReport {
   // The lit sweeps are at another temperature than the dark one, parameter dT: the measurements need
   // it, or explain themselves by a second diode as well (`either`).
   bool warmer = false;
-  double warmer_p = kUnknown;  // p-value of one temperature against two; NaN: none or all are lit
+  double warmer_p = kUnknown;   // p-value of one temperature against two; NaN: none or all are lit
   double voc_per_K = kUnknown;  // of the law behind dT, V: what the readings tell is the product
   bool either = false;
   double contacts_p =

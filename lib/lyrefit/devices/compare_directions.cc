@@ -91,8 +91,7 @@ RateFinding JudgeRates(const std::vector<double>& rate, const std::vector<double
   constexpr double kPeak = 1.5, kProportional = 0.7, kConstant = 0.3;
   const auto at = std::max_element(gap.begin(), gap.end());
   const double ends = std::max(gap.front(), gap.back());
-  const double exponent =
-      std::log(gap.back() / gap.front()) / std::log(rate.back() / rate.front());
+  const double exponent = std::log(gap.back() / gap.front()) / std::log(rate.back() / rate.front());
   if (*at > kPeak * ends) {
     return {fmt::format("the gap has a maximum at {:.3g} V/s, as ions or slow traps make it; a "
                         "capacitance and late readings only grow with the rate",
@@ -101,23 +100,27 @@ RateFinding JudgeRates(const std::vector<double>& rate, const std::vector<double
   }
   if (sense_changes) return {"the index changes its sign with the rate, as ions make it", {kIons}};
   if (exponent > kProportional) {
-    return {"the gap grows with the rate: late readings, a capacitance, or ions whose maximum lies "
-            "above the fastest rate",
-            {kIons, kTiming, kCharge}};
+    return {
+        "the gap grows with the rate: late readings, a capacitance, or ions whose maximum lies "
+        "above the fastest rate",
+        {kIons, kTiming, kCharge}};
   }
   if (exponent > kConstant) {
-    return {"the gap grows less than the rate: ions or traps, or the charge of the junction that "
-            "saturates; no late readings",
-            {kIons, kCharge}};
+    return {
+        "the gap grows less than the rate: ions or traps, or the charge of the junction that "
+        "saturates; no late readings",
+        {kIons, kCharge}};
   }
   if (exponent > -kConstant) {
-    return {"the gap hardly changes with the rate: ions or traps of many time constants; no "
-            "capacitance, no late readings, no drift",
-            {kIons}};
+    return {
+        "the gap hardly changes with the rate: ions or traps of many time constants; no "
+        "capacitance, no late readings, no drift",
+        {kIons}};
   }
-  return {"the gap falls as the rate rises: ions or traps whose maximum lies below the slowest rate, "
-          "or a drift of lamp or temperature",
-          {kIons, kDrift}};
+  return {
+      "the gap falls as the rate rises: ions or traps whose maximum lies below the slowest rate, "
+      "or a drift of lamp or temperature",
+      {kIons, kDrift}};
 }
 
 }  // namespace
@@ -151,9 +154,10 @@ DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& rever
   const bool shows = pair.gap_percent >= least_percent && pair.gap_percent > 2 * pair.noise_percent;
   if (shows) {
     constexpr double kErrors = 2;
-    pair.sense = std::fabs(pair.index_power) < kErrors * pair.index_noise ? HysteresisSense::kNeither
-                 : pair.index_power >= 0                                  ? HysteresisSense::kNormal
-                                                                          : HysteresisSense::kInverted;
+    pair.sense = std::fabs(pair.index_power) < kErrors * pair.index_noise
+                     ? HysteresisSense::kNeither
+                 : pair.index_power >= 0 ? HysteresisSense::kNormal
+                                         : HysteresisSense::kInverted;
     pair.causes = CausesOf(pair);
   }
   const double seen = std::max(3 * pair.noise_percent, least_percent) / 100;
@@ -273,16 +277,20 @@ Superposition WithCauses(Superposition found) {
     found.causes = {found.dark_scale > 1 ? "the lit cell was warmer than the dark one"
                                          : "the dark cell was warmer than the lit one",
                     "light soaking: the light changed the recombination",
-                    "the light drifted during the sweep", "another resistance of the contacts",
-                    "a barrier that the light changes", "collection that depends on voltage"};
+                    "the light drifted during the sweep",
+                    "another resistance of the contacts",
+                    "a barrier that the light changes",
+                    "collection that depends on voltage"};
     found.decides =
         "Voc at once after the light is switched on and after a minute tells warming (it falls) "
         "and soaking (it settles) apart; a second light tells collection apart";
     return found;
   }
   found.causes = {"collection that depends on voltage (photoshunt)",
-                  "a barrier that the light changes", "light soaking",
-                  "the light drifted during the sweep", "another resistance of the contacts",
+                  "a barrier that the light changes",
+                  "light soaking",
+                  "the light drifted during the sweep",
+                  "another resistance of the contacts",
                   "the lit cell was warmer than the dark one"};
   found.decides =
       "a second light: the part that grows with the light is collection; a dark curve right after "

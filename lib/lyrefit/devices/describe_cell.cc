@@ -50,7 +50,8 @@ void NameWhatDiffers(double CellSweep::*quantity, const char* unit,
   }
   if (!(most - least > kSame * most)) return;
   for (CellSweep& sweep : *sweeps) {
-    if (!std::isnan(sweep.*quantity)) sweep.name += fmt::format(", {:.3g} {}", sweep.*quantity, unit);
+    if (!std::isnan(sweep.*quantity))
+      sweep.name += fmt::format(", {:.3g} {}", sweep.*quantity, unit);
   }
 }
 
@@ -66,8 +67,7 @@ void NumberRepeats(std::vector<CellSweep>* sweeps) {
 std::vector<IdealityOverLight> FindIdealities(const CellReport& report, double thermal_V) {
   std::vector<IdealityOverLight> idealities;
   const std::vector<CellSweep>& sweeps = report.sweeps;
-  const double isc =
-      report.main == -1 ? kUnknown : sweeps[report.main].key.short_circuit_current_A;
+  const double isc = report.main == -1 ? kUnknown : sweeps[report.main].key.short_circuit_current_A;
   const auto take = [&](SweepKind source, const std::vector<VocPoint>& points) {
     auto found = FindIdealityOverLight(points, thermal_V, isc);
     if (!found) return;
@@ -112,8 +112,9 @@ Ranged IdealityAtMain(const CellReport& report) {
 // errors of both.
 bool IsAbove(const Ranged& fitted, const Ranged& over_light) {
   constexpr double kMost = 1.07;
-  const double error = std::hypot(fitted.high_95 - fitted.low_95,
-                                  kMost * (over_light.high_95 - over_light.low_95)) / 2;
+  const double error =
+      std::hypot(fitted.high_95 - fitted.low_95, kMost * (over_light.high_95 - over_light.low_95)) /
+      2;
   const double above = fitted.value - kMost * over_light.value;
   return above > 0 && !(above <= error);
 }
@@ -220,8 +221,8 @@ std::optional<Superposition> Superpose(const CellReport& report, double least_pe
   if (!report.dark) return std::nullopt;
   std::optional<Superposition> first, found;
   for (const TakenOff& one : SeriesToTakeOff(report)) {
-    found = TestSuperposition(report.sweeps[report.main], report.sweeps[report.dark->sweep], one.ohms,
-                              least_percent);
+    found = TestSuperposition(report.sweeps[report.main], report.sweeps[report.dark->sweep],
+                              one.ohms, least_percent);
     found->rs_from = one.from;
     if (first) found->not_with = first->rs_from;
     if (!first) first = found;

@@ -11,6 +11,8 @@
 namespace lyrefit {
 namespace {
 
+constexpr std::size_t kFewLights = 12;  // whose voltages do not show their noise
+
 // Logarithms of the light, and the voltages.
 Line LogLine(const std::vector<VocPoint>& points) {
   Line line;
@@ -72,9 +74,9 @@ std::vector<VocPoint> PointsOfAll(const std::vector<CellSweep>& sweeps) {
 // Voc = slope ln(light - shunt Voc) + constant by least squares, with the shunt given.
 struct BesideShunt {
   double slope = kUnknown;
-  double squares = kInfinity;       // sum of the squared deviations, V^2
-  Eigen::VectorXd left;             // deviation of each voltage
-  Eigen::MatrixXd by_parameters;    // of each voltage by slope, constant and shunt
+  double squares = kInfinity;     // sum of the squared deviations, V^2
+  Eigen::VectorXd left;           // deviation of each voltage
+  Eigen::MatrixXd by_parameters;  // of each voltage by slope, constant and shunt
 };
 
 // An error of Voc counts once more in the current of the shunt.
@@ -110,15 +112,13 @@ std::vector<VocPoint> PointsAround(const std::vector<VocPoint>& points, double i
 
 // Standard errors of slope, constant and shunt (where `parameters` has it): by the scatter of the voltages, at least `noise_V`, which
 // neighbours may share.
-Eigen::VectorXd ErrorsBesideShunt(const BesideShunt& fit, Eigen::Index parameters,
-                                  double noise_V) {
+Eigen::VectorXd ErrorsBesideShunt(const BesideShunt& fit, Eigen::Index parameters, double noise_V) {
   const Eigen::VectorXd& left = fit.left;
   const Eigen::Index count = left.size(), degrees = count - parameters;
   const double scatter = degrees > 0 ? fit.squares / static_cast<double>(degrees) : 0;
   const double next = left.head(count - 1).dot(left.tail(count - 1));
   const double shared = degrees > 3 ? std::clamp(next / fit.squares, 0.0, 0.9) : 0;
-  const double variance =
-      std::max(noise_V * noise_V, scatter * (1 + shared) / (1 - shared));
+  const double variance = std::max(noise_V * noise_V, scatter * (1 + shared) / (1 - shared));
   const Eigen::MatrixXd by = fit.by_parameters.leftCols(parameters);
   return (variance * (by.transpose() * by).inverse().diagonal()).cwiseSqrt();
 }
@@ -140,15 +140,27 @@ void FindJunction(double isc_A, double noise_V, double thermal_V, IdealityOverLi
     }
   }
   const Eigen::Index parameters = points.size() > 3 && shunt_S > 0 ? 3 : 2;
-  const Eigen::VectorXd errors =
-      ErrorsBesideShunt(FitBesideShunt(points, shunt_S, slope), parameters, noise_V);
+  const BesideShunt fit = FitBesideShunt(points, shunt_S, slope);
+  const Eigen::VectorXd errors = ErrorsBesideShunt(fit, parameters, noise_V);
   const int degrees = static_cast<int>(points.size() - parameters);
-  const double times = degrees > 0 ? StudentT95(degrees) : 2, reach = times * errors[0];
+  found->noise_V = degrees > 0 ? std::sqrt(fit.squares / degrees) : 0;
+  const double times = degrees > 0 && found->points.size() >= kFewLights ? StudentT95(degrees) : 2;
+  const double reach = times * errors[0];
   found->junction = {slope / thermal_V, (slope - reach) / thermal_V, (slope + reach) / thermal_V};
   found->shunt_S = {shunt_S, 0, 0};
   if (parameters < 3) return;
   found->shunt_S.low_95 = shunt_S - times * errors[2];
   found->shunt_S.high_95 = shunt_S + times * errors[2];
+}
+
+// n of the two of a few lights around `isc_A`, which do not show how n changes along them.
+void TakePair(double isc_A, double noise_V, double thermal_V, IdealityOverLight* found) {
+  LocalIdeality pair = found->local.front();
+  for (const LocalIdeality& local : found->local) {
+    if (!(local.low_A >= isc_A)) pair = local;
+  }
+  const double error = std::sqrt(2.0) * noise_V / thermal_V / std::log(pair.high_A / pair.low_A);
+  found->junction = {pair.n, pair.n - 2 * error, pair.n + 2 * error};
 }
 
 // Where the next point of a local n lies, at least: where noise leaves 5 % of its slope.
@@ -178,9 +190,16 @@ std::optional<IdealityOverLight> FindIdealityOverLight(std::vector<VocPoint> poi
     found.n.low_95 = found.n.value - reach;
     found.n.high_95 = found.n.value + reach;
   }
-  const double noise_V = NoiseFromDifferences(line.x, line.y);
+  found.points = points;
+  // A few lights are not set closer than their lamp and the cell's temperature hold still.
+  constexpr double kSetting = 0.02;  // of the thermal voltage: 0.5 mV a cell
+  const bool few = points.size() < kFewLights;
+  const double setting_V = few ? kSetting * module_thermal_voltage_V : 0;
+  FindJunction(isc_A, setting_V, module_thermal_voltage_V, &found);
+  // Where n changes along the lights, neighbours tell their noise better than the one law.
+  found.noise_V = few ? 0 : std::min(found.noise_V, NoiseFromDifferences(line.x, line.y));
   for (std::size_t low = 0, k = 0; low + 1 < points.size(); low = k) {
-    k = NextPoint(line, low, noise_V, module_thermal_voltage_V);
+    k = NextPoint(line, low, found.noise_V, module_thermal_voltage_V);
     if (k == points.size()) {
       if (!found.local.empty()) break;
       k = points.size() - 1;
@@ -190,13 +209,7 @@ std::optional<IdealityOverLight> FindIdealityOverLight(std::vector<VocPoint> poi
          (line.y[k] - line.y[low]) / (line.x[k] - line.x[low]) / module_thermal_voltage_V});
   }
   found.rises_to_low_light = RisesToLowLight(found.local);
-  found.noise_V = noise_V;
-  // A few lights are not set closer than their lamp and the cell's temperature hold still.
-  constexpr double kSetting = 0.02;  // of the thermal voltage: 0.5 mV a cell
-  constexpr std::size_t kFew = 12;
-  const double least_V = points.size() < kFew ? kSetting * module_thermal_voltage_V : 0;
-  found.points = std::move(points);
-  FindJunction(isc_A, std::max(noise_V, least_V), module_thermal_voltage_V, &found);
+  if (few) TakePair(isc_A, setting_V, module_thermal_voltage_V, &found);
   return found;
 }
 

@@ -355,8 +355,8 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
   };
   JointCandidates fits = {made({true, false, false}), made({false, false, true}),
                           made({true, false, true})};
-  const JointCandidate& plain = TryDiodeAndWarmth(one, !lights.empty() && dark >= 0, &fits, estimate,
-                                                  progress, &joint);
+  const JointCandidate& plain =
+      TryDiodeAndWarmth(one, !lights.empty() && dark >= 0, &fits, estimate, progress, &joint);
   const JointKind of = plain.kind;
   JointCandidate aged(report, lights, dark, options, {of.second_diode, true, of.warmer});
   // Laboratory cells depart from their model in more ways, which a small part of the area imitates.

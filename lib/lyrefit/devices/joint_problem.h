@@ -40,8 +40,8 @@ struct CellProblem {
   Device device;  // one or more diodes, no effects
   bool contacts = false;
   bool warmer = false;
-  double temperature_K = 298.15;    // of the blocks that are not heated
-  double gap_over_thermal = 0;      // band gap over k T
+  double temperature_K = 298.15;  // of the blocks that are not heated
+  double gap_over_thermal = 0;    // band gap over k T
   std::vector<ParameterInfo> parameters;
   std::vector<double> lower;
   std::vector<double> upper;

@@ -97,7 +97,7 @@ double BehindSeries(double slope_S, double ohm) {
 }
 
 // The resistance with its interval: the value by the definition and that without the method's bias,
-// each with the error of the noise and of the bias. One whose whole interval lies below 0 is void:
+// each with the error of the noise and of the bias. One that lies below 0 by its noise is void:
 // `because` says what is in it instead.
 SeriesResistance WithErrors(SeriesResistance found, double noise_ohm, const MethodError& method,
                             const char* because) {
@@ -105,7 +105,7 @@ SeriesResistance WithErrors(SeriesResistance found, double noise_ohm, const Meth
   const double value = found.ohm.value, unbiased = value - method.bias_ohm;
   const double reach = kNormal95 * std::hypot(noise_ohm, method.error_ohm);
   found.ohm = {value, std::fmin(value, unbiased) - reach, std::fmax(value, unbiased) + reach};
-  if (!(found.ohm.high_95 < 0)) return found;
+  if (!(value + kNormal95 * noise_ohm < 0)) return found;
   found.ohm = {};
   found.missing = fmt::format("void: {:.3g} ohm, below 0 as no resistance is; {}", value, because);
   return found;
@@ -169,10 +169,9 @@ SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, const R
   const double noise = std::hypot(std::sqrt(2.0) * lit.noise_A, dark.noise_A);
   const double ohm = found.ohm.value, slope = SlopeAt(dark, dark_V), per = own ? imp : isc;
   const double reach = lit.key.open_circuit_voltage_V / kNearShortCircuit;
-  MethodError method =
-      ErrorOfMethod(AtShortCircuit(lit, reach), isc, AtShortCircuit(dark, reach), 0,
-                    at.voltage_V + imp * ohm, BehindSeries(slope, own ? dark_rs_ohm : ohm), ohm,
-                    isc - imp);
+  MethodError method = ErrorOfMethod(AtShortCircuit(lit, reach), isc, AtShortCircuit(dark, reach),
+                                     0, at.voltage_V + imp * ohm,
+                                     BehindSeries(slope, own ? dark_rs_ohm : ohm), ohm, isc - imp);
   method.bias_ohm *= isc / per;
   method.error_ohm *= isc / per;
   const double of_dark = own ? (isc - imp) / imp * (dark_rs.high_95 - dark_rs.low_95) / 4 : 0;
@@ -201,8 +200,7 @@ SeriesResistance RsFromVoc(const CellSweep& lit, const IdealityOverLight& over) 
   // In place of a second curve: the shunt of the trace, and at its light the same loss of collection.
   const double ohm = found.ohm.value;
   const Ranged& shunt = over.shunt_S;
-  const Conductance own =
-      AtShortCircuit(lit, lit.key.open_circuit_voltage_V / kNearShortCircuit);
+  const Conductance own = AtShortCircuit(lit, lit.key.open_circuit_voltage_V / kNearShortCircuit);
   const Conductance dark = {shunt.value, (shunt.high_95 - shunt.low_95) / 4};
   MethodError method =
       ErrorOfMethod(own, isc, dark, 0, at.voltage_V + imp * ohm, 1 / slope, ohm, light);

@@ -195,10 +195,10 @@ std::optional<double> AsScanRate(const Statement& statement) {
 // seconds must say of what it is, since the settings of a sweep are times too.
 std::optional<double> AsElapsedHours(const Statement& statement) {
   static const std::set<std::string> kOperation = {
-      "age",         "ageing",       "ageingtime",    "aging",         "agingtime",
-      "elapsed",     "elapsedtime",  "exposuretime",  "lightsoaking",  "lightsoakingtime",
-      "operation",   "operatingtime", "operationtime", "soaking",      "soakingtime",
-      "stability",   "stabilitytime", "stresstime",    "timeunderlight"};
+      "age",       "ageing",        "ageingtime",    "aging",         "agingtime",
+      "elapsed",   "elapsedtime",   "exposuretime",  "lightsoaking",  "lightsoakingtime",
+      "operation", "operatingtime", "operationtime", "soaking",       "soakingtime",
+      "stability", "stabilitytime", "stresstime",    "timeunderlight"};
   const std::string& unit = statement.unit;
   double hours = 0;
   for (const auto& [text, factor] :

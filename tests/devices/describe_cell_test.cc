@@ -167,7 +167,7 @@ TEST(DescribeCell, RatesAndHoursNameTheSweepsThatTheyTellApart) {
   const CellReport series = Described(curves);
   EXPECT_EQ(series.sweeps[2].name, "forward, 1000 W/m2, 100 h");
   EXPECT_THAT(CellText(series), HasSubstr("Over hours"));
-  EXPECT_THAT(CellText(series), HasSubstr("After 100 h: Pmp 9"));
+  EXPECT_THAT(CellText(series), HasSubstr("Pmp 89.8 % of the first"));
   // Dates are hours since the first.
   for (IvCurve& curve : curves) {
     curve.notes.date = curve.notes.elapsed_h > 50 ? "2025-03-13 10:00" : "2025-03-12 10:00";

@@ -10,7 +10,7 @@
 
 namespace lyrefit {
 
-// The result in a few sentences: efficiency, hysteresis, ideality, largest loss of fill factor.
+// cell_verdict.cc: the result in a few sentences: efficiency, hysteresis, ideality, largest loss of fill factor.
 std::string CellVerdict(const CellReport& report);
 
 // cell_sections.cc: the resistances, the fill factor and its losses, superposition.

@@ -180,6 +180,24 @@ SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, const R
                     "the dark current in the light is larger: the curves do not superpose");
 }
 
+namespace {
+
+// By how much a straight line between two lights is above the parabola through three, in V.
+double AboveParabola(const std::vector<VocPoint>& points, double light_A) {
+  if (points.size() < 3) return 0;
+  std::size_t k = 1;
+  while (k + 1 < points.size() && points[k].light_A < light_A) ++k;
+  const VocPoint &a = points[k - 1], &b = points[k];
+  const VocPoint& c = k + 1 < points.size() ? points[k + 1] : points[k - 2];
+  const auto slope = [](const VocPoint& from, const VocPoint& to) {
+    return (to.voc_V - from.voc_V) / std::log(to.light_A / from.light_A);
+  };
+  const double bend = (slope(b, c) - slope(a, b)) / std::log(c.light_A / a.light_A);
+  return -bend * std::log(light_A / a.light_A) * std::log(light_A / b.light_A);
+}
+
+}  // namespace
+
 SeriesResistance RsFromVoc(const CellSweep& lit, const IdealityOverLight& over) {
   constexpr double kStep = 1e-3;
   SeriesResistance found;
@@ -204,6 +222,7 @@ SeriesResistance RsFromVoc(const CellSweep& lit, const IdealityOverLight& over) 
   const Conductance dark = {shunt.value, (shunt.high_95 - shunt.low_95) / 4};
   MethodError method =
       ErrorOfMethod(own, isc, dark, 0, at.voltage_V + imp * ohm, 1 / slope, ohm, light);
+  method.bias_ohm += AboveParabola(over.points, light) / imp;
   // The trace may be of another light or temperature than it says: it misses Voc of the curve.
   const double off_V = lit.key.open_circuit_voltage_V - VocAt(over.points, isc);
   if (std::isfinite(off_V)) method.error_ohm = std::hypot(method.error_ohm, off_V / imp);

@@ -46,13 +46,10 @@ void DeclareCell(VerbLine* verb, CellRequest* request) {
 }
 
 Expected<CurveSet> ReadFlaggedCell(const CellRequest& request) {
-  TRY(CurveSet cell, ReadCell(request.files, request.reading));
-  if (request.conditions.irradiance_W_m2 && cell.curves.size() > 1) {
-    return Fail(
-        "--irradiance-Wm2 is for one curve, this cell has " + std::to_string(cell.curves.size()),
-        request.files.front());
-  }
-  TRY(ApplyConditionFlags(request.conditions, &cell));
+  ConditionOptions conditions = request.conditions;
+  TRY(CurveSet cell, ReadCell(request.files, request.reading, conditions.irradiance_W_m2));
+  if (cell.curves.size() > 1) conditions.irradiance_W_m2.reset();  // of each that states none
+  TRY(ApplyConditionFlags(conditions, &cell));
   return cell;
 }
 

@@ -54,12 +54,10 @@ CurveSet CellOf(py::handle curves, py::handle current, const CurveKeywords& said
     const std::vector<std::string> files = IsPath(curves)
                                                ? std::vector<std::string>{TextOf("curves", curves)}
                                                : TextsOf("curves", curves);
-    set = Must(Unlocked([&] { return ReadCell(files, said.reading); }));
-    if (said.told.irradiance_W_m2 && set.curves.size() > 1) {
-      Raise({"irradiance_Wm2 is for one curve, this cell has " + std::to_string(set.curves.size()),
-             {}});
-    }
-    const Expected<void> applied = ApplyConditions(said.told, &set);
+    ConditionOptions told = said.told;
+    set = Must(Unlocked([&] { return ReadCell(files, said.reading, told.irradiance_W_m2); }));
+    if (set.curves.size() > 1) told.irradiance_W_m2.reset();  // of each that states none
+    const Expected<void> applied = ApplyConditions(told, &set);
     if (!applied) Raise(applied.error());
     if (!said.name.empty()) set.name = said.name;
     return set;

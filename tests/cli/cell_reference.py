@@ -197,7 +197,22 @@ def voc_at(points, light):
     return float(np.interp(math.log(light), x, y, math.nan, math.nan)) if light > 0 else math.nan
 
 
-def check_over_light(over, sweeps, thermal):
+def check_junction(over, light, voc, thermal, isc):
+    """n beside a shunt by least squares of the voltages that solve light = exp((V - c) / a) + g V."""
+    rows = (light >= isc / 30) & (light <= 3 * isc)
+    light, voc = light[rows], voc[rows]
+
+    def off(p):
+        a, c, g = p[0] * thermal, p[1], abs(p[2]) * isc
+        return [brentq(lambda v: math.exp((v - c) / a) + g * v - l, -5, 5) - v for l, v in zip(light, voc)]
+
+    start = line(np.log(light), voc)[0]
+    p = least_squares(off, [start / thermal, voc[-1] - start * math.log(light[-1]), 1e-3], x_scale=[1, 0.1, 1e-2],
+                      xtol=1e-12, ftol=1e-12).x
+    same("n of the junction", over["junction"]["value"], p[0], 2e-3)
+
+
+def check_over_light(over, sweeps, thermal, main_isc):
     if over["source"] == "lit":
         lit = [s for s in sweeps if s["kind"] == "lit"]
         lights = {s["irradiance_Wm2"] for s in lit}
@@ -222,9 +237,11 @@ def check_over_light(over, sweeps, thermal):
         reach = student.ppf(0.975, len(points) - 2) * error / thermal
         same("n over light, low", over["n"]["low_95"], slope / thermal - reach)
         same("n over light, high", over["n"]["high_95"], slope / thermal + reach)
-    local = np.diff(voc) / np.diff(np.log(light)) / thermal
     for k, one in enumerate(over["local"]):
-        same(f"local n {k}", one["n"], local[k])
+        ends = np.interp(np.log([one["low_A"], one["high_A"]]), np.log(light), voc)
+        same(f"local n {k}", one["n"], (ends[1] - ends[0]) / math.log(one["high_A"] / one["low_A"]) / thermal)
+    if len(points) >= 12:
+        check_junction(over, light, voc, thermal, main_isc)
 
 
 def check_dark(dark, sweeps, thermal):
@@ -476,7 +493,8 @@ def check(report):
     for pair in report["hysteresis"]:
         check_pair(pair, sweeps)
     for over in report["ideality_over_light"]:
-        check_over_light(over, sweeps, thermal)
+        check_over_light(over, sweeps, thermal,
+                         sweeps[report["main"]]["key_points"]["short_circuit_current_A"])
     if report["ideality_dark"]:
         check_dark(report["ideality_dark"], sweeps, thermal)
     check_resistances(report, thermal)

@@ -65,6 +65,48 @@ TEST(CellCommand, SunsVocTakesItsIscFromTheLitCurve) {
   EXPECT_THAT(alone.err, HasSubstr("--isc-A"));
 }
 
+// A lit curve of 22 mA/cm2 whose file states neither area nor light.
+const std::string kDensities = [] {
+  std::string rows = "V (V),J (mA/cm2)\n";
+  for (int k = 0; k <= 45; ++k) {
+    const double voltage_V = 0.02 * k;
+    rows += fmt::format("{},{}\n", voltage_V, 22 - 1e-9 * std::expm1(voltage_V / 0.036));
+  }
+  return rows;
+}();
+
+TEST(CellCommand, DensitiesNeedNoArea) {
+  const TempFolder folder;
+  const AppResult run = RunApp("cell '" + folder.Write("j.csv", kDensities) + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Jsc 22.00 mA/cm2"));
+  EXPECT_THAT(run.out, HasSubstr("not stated: all is of 1 cm2"));
+  // Beside currents of an unknown area they are not comparable.
+  const std::string dark = folder.Write(
+      "dark.csv",
+      "# Irradiance: 0 W/m2\nV (V),I (A)\n0,0\n0.2,-1e-6\n0.4,-1e-5\n0.6,-1e-4\n0.7,-1e-3\n");
+  const AppResult mixed = RunApp("cell '" + folder.Path("j.csv") + "' '" + dark + "'");
+  EXPECT_EQ(mixed.exit_code, 1);
+  EXPECT_THAT(mixed.err, HasSubstr("--area-cm2"));
+}
+
+TEST(CellCommand, ATraceBesideAnAssumedLight) {
+  const TempFolder folder;
+  std::string rows = "suns,voc_V\n";
+  for (int k = 0; k < 30; ++k) {
+    const double suns = 0.02 * std::pow(1.2, k);
+    rows += fmt::format("{},{}\n", suns, 0.036 * std::log(22 * suns / 1e-9));
+  }
+  const std::string lit = folder.Write("j.csv", kDensities), trace = folder.Write("s.csv", rows);
+  for (const char* const light : {"", " --irradiance-Wm2 1000"}) {
+    const AppResult run = RunApp("cell '" + lit + "' '" + trace + "'" + light + " --verbose");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("Pseudo-FF"));
+    const bool said = run.out.find("no light is stated") != std::string::npos;
+    EXPECT_EQ(said, *light == '\0') << run.out;
+  }
+}
+
 TEST(CellCommand, DescribesTheCellThatIsNamedLitAndDark) {
   const TempFolder folder;
   const std::string table = folder.Write(

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lyrefit/base/constants.h"
+#include "lyrefit/base/random.h"
 #include "lyrefit/devices/cell_figures.h"
+#include "lyrefit/devices/device_documents.h"
 #include "synthetic/curves.h"
 
 namespace lyrefit {
@@ -122,6 +125,59 @@ TEST(DescribeCell, AShuntInVocOverLightGivesNoNegativeSeriesResistance) {
   EXPECT_THAT(voc->missing, HasSubstr("below 0 as no resistance is; a shunt"));
   EXPECT_EQ(report.pseudo.source, PseudoSource::kFit);
   EXPECT_GT(report.pseudo.value, report.sweeps[report.main].key.fill_factor);
+}
+
+// A trace of Suns-Voc of a diode of this n, with 0.3 mV of noise.
+IvCurve TraceOfDiode(double n, std::uint64_t seed) {
+  constexpr int kPoints = 80;
+  RandomStream random(9, seed);
+  IvCurve trace = CellSweepOf(kCellTruth, 1000);
+  trace.voltage_V.clear();
+  trace.current_A.clear();
+  trace.suns_voc_A = kCellTruth[0];
+  const double voc = 1.4 * ThermalVoltage(298.15) * std::log(kCellTruth[0] / kCellTruth[1]);
+  for (int k = 0; k < kPoints; ++k) {
+    const double suns = 0.02 * std::pow(100.0, k / (kPoints - 1.0));
+    trace.voltage_V.push_back(voc + n * ThermalVoltage(298.15) * std::log(suns) +
+                              3e-4 * random.Normal());
+    trace.current_A.push_back(*trace.suns_voc_A * (1 - suns));
+  }
+  return trace;
+}
+
+TEST(DescribeCell, NoiseOfATraceVoidsNoFitButAnotherIdealityDoes) {
+  const IvCurve lit = CellSweepOf(kCellTruth, 1000, false, kNoise);
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const CellReport same = Described({lit, TraceOfDiode(1.4, seed)});
+    EXPECT_TRUE(same.sweeps[0].diode()) << seed;
+    const CellReport other = Described({lit, TraceOfDiode(1.2, seed)});
+    EXPECT_THAT(other.sweeps[0].void_because, Contains(HasSubstr("of Voc over light"))) << seed;
+  }
+}
+
+TEST(DescribeCell, RatesAndHoursNameTheSweepsThatTheyTellApart) {
+  std::vector<IvCurve> curves;
+  for (const double hours : {0.0, 24.0, 100.0}) {
+    std::vector<double> p = kCellTruth;
+    p[0] *= 1 - hours / 1000;
+    curves.push_back(CellSweepOf(p, 1000, false, kNoise));
+    curves.back().notes.elapsed_h = hours;
+    curves.back().source = std::to_string(hours);
+  }
+  const CellReport series = Described(curves);
+  EXPECT_EQ(series.sweeps[2].name, "forward, 1000 W/m2, 100 h");
+  EXPECT_THAT(CellText(series), HasSubstr("Over hours"));
+  EXPECT_THAT(CellText(series), HasSubstr("Pmp 89.8 % of the first"));
+  // Dates are hours since the first.
+  for (IvCurve& curve : curves) {
+    curve.notes.date = curve.notes.elapsed_h > 50 ? "2025-03-13 10:00" : "2025-03-12 10:00";
+    curve.notes.elapsed_h.reset();
+  }
+  EXPECT_NEAR(Described(curves).sweeps[2].elapsed_h, 24, 1e-9);
+  IvCurve timed = CellSweepOf(kCellTruth, 1000);
+  for (std::size_t k = 0; k < timed.size(); ++k) timed.time_s.push_back(0.1 * k);
+  const double step_V = std::fabs(timed.voltage_V[1] - timed.voltage_V[0]);
+  EXPECT_NEAR(Described({timed}).sweeps[0].scan_rate_V_s, step_V / 0.1, 1e-9);
 }
 
 TEST(DescribeCell, OneLightDoesNotTellAShuntFromCollection) {

@@ -205,10 +205,33 @@ TEST(JointEstimate, ASecondDiodeIsFound) {
   const auto report = DescribeCell(CellOf(curves));
   ASSERT_TRUE(report && report->joint);
   EXPECT_TRUE(report->joint->second_diode);
+  EXPECT_FALSE(report->joint->warmer);
   EXPECT_LT(report->joint->second_diode_p, 1e-3);
   const Estimate& second = ParameterOf(*report->joint, "Is2");
   EXPECT_LT(second.low_95, 1e-11);
   EXPECT_GT(second.high_95, 1e-11);
+}
+
+// A lit cell that is 2 K warmer, or colder, than the dark one is no second diode.
+TEST(JointEstimate, ADifferenceOfTemperatureIsFound) {
+  constexpr double kDark_K = 298.15, kGap_V = 1.36, kBoltzmann_V_per_K = 8.617333e-5;
+  for (const double kelvin : {2.0, -2.0}) {
+    std::vector<double> lit = kCellTruth;
+    const double ratio = (kDark_K + kelvin) / kDark_K, n = lit[2];
+    lit[1] *= std::pow(ratio, 3 / n) *
+              std::exp(kGap_V / (n * kBoltzmann_V_per_K * kDark_K) * (1 - 1 / ratio));
+    lit[2] *= ratio;
+    const auto report = DescribeCell(CellOf({CellSweepOf(lit, 1000, false, kJointNoise_A),
+                                             CellSweepOf(kCellTruth, 0, false, kJointNoise_A)}));
+    ASSERT_TRUE(report && report->joint);
+    const JointEstimate& joint = *report->joint;
+    EXPECT_TRUE(joint.warmer);
+    EXPECT_FALSE(joint.second_diode);
+    EXPECT_THAT(joint.void_because, IsEmpty());
+    EXPECT_NEAR(ParameterOf(joint, "dT").refined, kelvin, 0.2);
+    EXPECT_NEAR(ParameterOf(joint, "n1").refined, kCellTruth[2], 0.02);
+    EXPECT_NEAR(joint.voc_per_K, -1.9e-3, 0.3e-3);
+  }
 }
 
 TEST(JointEstimate, CurvesOfUnlikeDevicesAreVoidTogether) {

@@ -52,6 +52,49 @@ TEST(Directions, CurvesThatCrossAreSaidToCross) {
   EXPECT_LT(std::fabs(pair.index_power), 0.02);
 }
 
+// Sweeps whose directions differ by a shift of the forward one, `shift_V` at each rate.
+std::string FindingOverRates(const std::vector<std::pair<double, double>>& shift_V_at_rate) {
+  std::vector<CellSweep> sweeps;
+  for (const auto& [rate, shift_V] : shift_V_at_rate) {
+    CellSweep forward = SweepOf(kCellTruth), reverse = SweepOf(kCellTruth, 1000, true);
+    for (double& v : forward.voltage_V) v -= shift_V;
+    forward.key = FindKeyPoints(forward.voltage_V, forward.current_A);
+    forward.scan_rate_V_s = reverse.scan_rate_V_s = rate;
+    sweeps.push_back(forward);
+    sweeps.push_back(reverse);
+  }
+  std::vector<DirectionPair> pairs = FindPairs(sweeps, 0.5);
+  EXPECT_EQ(pairs.size(), shift_V_at_rate.size()) << "each with its own rate";
+  const auto over = CompareRates(sweeps, &pairs);
+  if (!over) return "one rate";
+  EXPECT_TRUE(over->causes.empty() || pairs.back().causes == over->causes);
+  return over->finding;
+}
+
+TEST(Directions, RatesTellIonsFromLateReadings) {
+  using ::testing::HasSubstr;
+  EXPECT_EQ(FindingOverRates({{0.1, 0.01}}), "one rate");
+  EXPECT_EQ(FindingOverRates({{0.1, 0}, {1, 0}}), "");
+  EXPECT_THAT(FindingOverRates({{10, 0.003}, {0.1, 0.003}, {1, 0.03}}),
+              HasSubstr("maximum at 1 V/s"));
+  EXPECT_THAT(FindingOverRates({{1, 0.003}, {10, 0.03}}), HasSubstr("grows with the rate"));
+  EXPECT_THAT(FindingOverRates({{1, 0.03}, {10, 0.003}}), HasSubstr("falls as the rate rises"));
+  EXPECT_THAT(FindingOverRates({{1, 0.01}, {10, 0.01}}), HasSubstr("hardly changes"));
+}
+
+TEST(Directions, AnIndexBelowItsNoiseHasNoSense) {
+  CellSweep forward = SweepOf(kCellTruth), reverse = SweepOf(kCellTruth, 1000, true);
+  // More current near Voc only: a gap, and no power.
+  for (std::size_t k = 0; k < forward.voltage_V.size(); ++k) {
+    if (forward.voltage_V[k] > 0.8) forward.current_A[k] += 5e-4;
+  }
+  forward.noise_A = reverse.noise_A = 1e-6;
+  const DirectionPair pair = CompareDirections(forward, reverse, 0.5);
+  EXPECT_GT(pair.gap_percent, 0.5);
+  EXPECT_GT(pair.index_noise, 0);
+  EXPECT_EQ(pair.sense, HysteresisSense::kNeither);
+}
+
 TEST(Idealities, AreThoseOfADiodeWithoutAShunt) {
   const double thermal = ThermalVoltage(298.15);
   std::vector<VocPoint> points;
@@ -76,7 +119,43 @@ TEST(Idealities, RiseToLowLightWithAShunt) {
   const auto found = FindIdealityOverLight(PointsOfLights(sweeps), ThermalVoltage(298.15));
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->rises_to_low_light);
-  EXPECT_NEAR(found->junction_n(), 1.4 / (1 - 0.85 / (1000 * 3e-3)), 0.05);
+  // Of the two brightest of a few lights.
+  EXPECT_NEAR(found->junction.value, 1.4 / (1 - 0.85 / (1000 * 3e-3)), 0.05);
+  EXPECT_GT(found->junction.high_95 - found->junction.low_95, 0.01);
+}
+
+// Voltages of a trace from 0.01 to 3 suns of a diode of n = 1.4 beside a shunt, with their noise.
+std::vector<VocPoint> NoisyTrace(int count, double noise_V, std::uint64_t seed) {
+  RandomStream random(3, seed);
+  std::vector<VocPoint> points;
+  const double thermal = ThermalVoltage(298.15);
+  for (int k = 0; k < count; ++k) {
+    const double light = 5.5e-3 * 0.01 * std::pow(300.0, k / (count - 1.0));
+    double low = 0, high = 2;
+    for (int step = 0; step < 60; ++step) {
+      const double v = 0.5 * (low + high);
+      (2e-13 * std::expm1(v / (1.4 * thermal)) + v / 4e4 < light ? low : high) = v;
+    }
+    points.push_back({light, low + noise_V * random.Normal()});
+  }
+  return points;
+}
+
+TEST(Idealities, OfATraceAreJudgedByItsNoise) {
+  const double thermal = ThermalVoltage(298.15);
+  int held = 0, tried = 0;
+  for (const double noise_V : {1e-4, 3e-4, 1e-3}) {
+    for (const int count : {25, 60, 200}) {
+      for (std::uint64_t seed = 0; seed < 10; ++seed, ++tried) {
+        const auto found = FindIdealityOverLight(NoisyTrace(count, noise_V, seed), thermal, 5.5e-3);
+        ASSERT_TRUE(found);
+        EXPECT_NEAR(found->junction.value, 1.4, 0.2);
+        held += found->junction.low_95 <= 1.4 && 1.4 <= found->junction.high_95 ? 1 : 0;
+        for (const LocalIdeality& local : found->local) EXPECT_GT(local.n, 1.1);
+      }
+    }
+  }
+  EXPECT_GE(held, tried * 9 / 10) << "of " << tried;
 }
 
 TEST(Idealities, OfADarkCurveAreFoundBesideItsShunt) {
@@ -95,6 +174,26 @@ TEST(SeriesResistances, FromTwoLightsIsExactForADiode) {
   EXPECT_LE(found.ohm.low_95, found.ohm.value);
 }
 
+// A shunt and a loss of collection move the value of each method, which its interval holds.
+TEST(SeriesResistances, HoldTheTruthBesideShuntAndCollection) {
+  const double rs = kCellTruth[3];
+  for (const double collection : {0.0, 0.01, 0.03}) {
+    std::vector<CellSweep> sweeps;
+    for (const double light : {1000.0, 300.0, 0.0}) {
+      std::vector<double> p = kCellTruth;
+      p[4] = 1 / (1 / 3000.0 + collection * p[0] * light / 1000);
+      sweeps.push_back(FindSweeps(CellSweepOf(p, light, false, 1e-7), 0.25).front().sweep);
+    }
+    for (const SeriesResistance& one :
+         {RsFromTwoLights(sweeps[0], sweeps[1]), RsFromDark(sweeps[0], sweeps[2], {}),
+          RsFromDark(sweeps[0], sweeps[2], {rs, rs, rs})}) {
+      EXPECT_LE(one.ohm.low_95, rs) << one.Name() << ", " << collection;
+      EXPECT_GE(one.ohm.high_95, rs) << one.Name() << ", " << collection;
+      EXPECT_LT(one.ohm.high_95 - one.ohm.low_95, rs) << one.Name();
+    }
+  }
+}
+
 TEST(SeriesResistances, SayWhatTheyMiss) {
   CellSweep shorter = SweepOf(kCellTruth, 300);
   shorter.voltage_V.resize(60);
@@ -102,7 +201,9 @@ TEST(SeriesResistances, SayWhatTheyMiss) {
   const SeriesResistance found = RsFromTwoLights(SweepOf(kCellTruth), shorter);
   EXPECT_TRUE(std::isnan(found.ohm.value));
   EXPECT_NE(found.missing, "");
-  const SeriesResistance voc = RsFromVoc(SweepOf(kCellTruth), {}, SweepKind::kSunsVoc);
+  IdealityOverLight nothing;
+  nothing.source = SweepKind::kSunsVoc;
+  const SeriesResistance voc = RsFromVoc(SweepOf(kCellTruth), nothing);
   EXPECT_NE(voc.missing, "");
 }
 

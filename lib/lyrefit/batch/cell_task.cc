@@ -91,7 +91,7 @@ ColumnList<CellRow> CellColumns() {
           {"n_over_light", "", "ideality from Voc over light",
            [](Of of) {
              const auto& lights = of.report.over_light;
-             return lights.empty() ? kUnknown : lights.front().junction_n();
+             return lights.empty() ? kUnknown : lights.front().junction.value;
            }},
           {"n_dark", "", "least local ideality of the dark curve",
            [](Of of) { return of.report.dark ? of.report.dark->least_n : kUnknown; }},

@@ -64,7 +64,9 @@ struct DeviceNotes {
   // spectrum that all curves refer to.
   std::optional<double> light_top;
   std::optional<double> light_bottom;
-  std::string date;  // of the measurement, as written
+  std::string date;                     // of the measurement, as written
+  std::optional<double> scan_rate_V_s;  // of the sweep
+  std::optional<double> elapsed_h;      // hours of operation or light soaking before the sweep
 };
 
 // Whether a word for a technology means thin films or a tandem. Any other word and none mean
@@ -125,7 +127,8 @@ struct IvCurve {
   // an open-circuit voltage at the photocurrent suns_voc_A - current_A.
   std::optional<double> suns_voc_A;
   bool pseudo_current = false;  // of a Suns-Voc trace: its readings were stated as currents
-  bool as_is = false;           // turns refusals of CheckReadings into doubts
+  bool per_area = false;  // the currents are those of 1 cm2: densities whose area is not stated
+  bool as_is = false;     // turns refusals of CheckReadings into doubts
 
   // Number of points.
   std::size_t size() const { return voltage_V.size(); }

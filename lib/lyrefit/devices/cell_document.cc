@@ -23,55 +23,15 @@ std::vector<std::string> DoubtsOf(const CellReport& report) {
   return doubts;
 }
 
-std::string SweepPower(const CellReport& report, const CellSweep& sweep) {
-  if (KnowsArea(report) && sweep.doubt.empty()) {
-    const std::string efficiency = sweep.no_efficiency_because.empty()
-                                       ? "efficiency " + PercentText(sweep.efficiency)
-                                       : "no efficiency, since the light is not known";
-    return fmt::format(
-        "{} (Jsc {} mA/cm2, Voc {} V, FF {})", efficiency, Significant(sweep.jsc_mA_cm2, 4),
-        Significant(sweep.key.open_circuit_voltage_V, 4), PercentText(sweep.key.fill_factor));
-  }
-  return fmt::format("Pmp {} W (Isc {} A, Voc {} V, FF {})", Significant(sweep.key.max_power_W, 4),
-                     Significant(sweep.key.short_circuit_current_A, 4),
-                     Significant(sweep.key.open_circuit_voltage_V, 4),
-                     PercentText(sweep.key.fill_factor));
-}
-
-std::string HysteresisVerdict(const CellReport& report) {
-  if (report.pairs.empty()) return "";
-  const DirectionPair& pair = report.pairs.front();
-  if (pair.sense == HysteresisSense::kNone) {
-    return fmt::format(" No hysteresis: a gap of {} % of Jsc between the directions.",
-                       Significant(pair.gap_percent, 2));
-  }
-  return fmt::format(" Hysteresis, {}: index by power {}, gap {} % of Jsc{}.", ToText(pair.sense),
-                     PercentText(pair.index_power, 2), Significant(pair.gap_percent, 2),
-                     pair.cross ? " (the curves cross, which the index hides)" : "");
-}
-
-std::string LossVerdict(const CellReport& report) {
-  for (const FillFactorLosses& losses : report.losses) {
-    if (losses.sweep != report.main) continue;
-    if (!losses.missing.empty()) return " No split of the fill factor: " + losses.missing + ".";
-    const auto largest =
-        std::max_element(losses.parts.begin(), losses.parts.end(),
-                         [](const auto& a, const auto& b) { return a.loss.value < b.loss.value; });
-    return fmt::format(" The fill factor loses most by {}: {} of {}.",
-                       largest->name.substr(0, largest->name.find(':')),
-                       PercentText(largest->loss.value, 2), PercentText(losses.ideal));
-  }
-  return "";
-}
-
 Section CellHead(const CellReport& report) {
   Section head = {fmt::format("lyrefit {}: cell {}", report.version, report.name)};
   AddField("files", report.source, &head);
   AddField("device",
            fmt::format("{}, {:.4g} C, area {}", Plural(report.cells_in_series, "cell"),
                        report.temperature_C,
-                       KnowsArea(report) ? fmt::format("{:.6g} cm2", report.area_cm2)
-                                         : std::string("not known: give --area-cm2")),
+                       report.per_area     ? std::string("not stated: all is of 1 cm2")
+                       : KnowsArea(report) ? fmt::format("{:.6g} cm2", report.area_cm2)
+                                           : std::string("not known: give --area-cm2")),
            &head);
   return head;
 }
@@ -115,6 +75,7 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
     table.rows.push_back({name, value, definition});
   };
   add("index by power", PercentText(pair.index_power), "(Pmp_rev - Pmp_fwd) / Pmp_rev");
+  add("its noise", PercentText(pair.index_noise, 2), "standard error, of the noise of both");
   add("index by area", PercentText(pair.index_area),
       "1 - A_fwd / A_rev, A below J from 0 V to Voc");
   add("index at 0.8 Voc", PercentText(pair.index_at_80), "(J_rev - J_fwd) / J_rev, Voc of reverse");
@@ -131,15 +92,67 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
     AddSentence("No hysteresis to speak of.", &section);
     return section;
   }
-  AddSentence(fmt::format("Hysteresis, {}: {} gives more power.{}", ToText(pair.sense),
-                          pair.sense == HysteresisSense::kNormal ? "reverse" : "forward",
-                          pair.cross ? " The curves cross: the index by power hides the gap." : ""),
+  const char* const more = pair.sense == HysteresisSense::kNormal ? "reverse" : "forward";
+  const char* const hides = " The curves cross: the index by power hides the gap.";
+  AddSentence(pair.sense == HysteresisSense::kNeither
+                  ? std::string("Hysteresis: a gap, while the index by power is below its noise.")
+                  : fmt::format("Hysteresis, {}: {} gives more power.{}", ToText(pair.sense), more,
+                                pair.cross ? hides : ""),
               &section);
-  AddSentence(
-      fmt::format("Possible: {}. A sweep at a second rate decides. Neither direction gives the "
-                  "steady power: track the maximum power point.",
-                  fmt::join(pair.causes, ", ")),
-      &section);
+  AddSentence(fmt::format("Possible: {}.{} Neither direction gives the steady power: track the "
+                          "maximum power point.",
+                          fmt::join(pair.causes, ", "),
+                          report.over_rate ? "" : " A sweep at a second rate decides."),
+              &section);
+  return section;
+}
+
+// Rate of a pair of directions.
+double RateOfPair(const CellReport& report, int pair) {
+  return report.sweeps[report.pairs[pair].forward].scan_rate_V_s;
+}
+
+Section RateSection(const CellReport& report) {
+  Section section = {"Hysteresis over the rate"};
+  if (!report.over_rate) return section;
+  block::Table table = {"rrrrrl",
+                        {{"rate", "index by power", "its noise", "gap", "noise in it", "sense"},
+                         {"V/s", "%", "%", "% of Jsc", "%", ""}}};
+  for (const int i : report.over_rate->pairs) {
+    const DirectionPair& pair = report.pairs[i];
+    table.rows.push_back({Significant(RateOfPair(report, i), 3),
+                          Significant(100 * pair.index_power, 3),
+                          Significant(100 * pair.index_noise, 2), Significant(pair.gap_percent, 3),
+                          Significant(pair.noise_percent, 2), ToText(pair.sense)});
+  }
+  AddTable(std::move(table), &section);
+  if (report.over_rate->finding.empty()) {
+    AddSentence("No rate has hysteresis to speak of.", &section);
+    return section;
+  }
+  AddSentence("T" + report.over_rate->finding.substr(1) + ".", &section);
+  AddField("left", fmt::format("{}", fmt::join(report.over_rate->causes, ", ")), &section);
+  return section;
+}
+
+// The lit sweeps of a cell over hours, each beside the first of its direction and light.
+Section HourSection(const CellReport& report) {
+  Section section = {"Over hours"};
+  const std::vector<HourRow> rows = RowsOfHours(report);
+  if (rows.empty()) return section;
+  block::Table table = {
+      "rlrrrrr",
+      {{"hours", "", "Voc", "Jsc", "FF", "Pmp", "Pmp"},
+       {"", "", "% of first", "% of first", "% of first", "% of first", "% per h"}}};
+  for (const HourRow& row : rows) {
+    table.rows.push_back(
+        {Significant(row.hours, 3), ToText(report.sweeps[row.sweep].direction),
+         Significant(100 * row.voc, 4), Significant(100 * row.isc, 4), Significant(100 * row.ff, 4),
+         Significant(100 * row.power, 4),
+         row.since_h > 0 ? fmt::format("{:+.2g}", 100 * (row.power - 1) / row.since_h) : "-"});
+  }
+  AddTable(std::move(table), &section);
+  section.blocks.emplace_back(block::Legend{"per h: mean change of Pmp since the first sweep"});
   return section;
 }
 
@@ -156,8 +169,7 @@ void AddLocalIdealities(const IdealityOverLight& over, Section* section) {
   if (over.rises_to_low_light) {
     AddSentence(
         "The local n rises towards low light, as a shunt makes it: n / (1 - Voc / (Rsh Isc)). One "
-        "line through all points means little; the values at the brightest light are nearest to "
-        "the junction's.",
+        "line through all points means little.",
         section);
   }
 }
@@ -165,7 +177,15 @@ void AddLocalIdealities(const IdealityOverLight& over, Section* section) {
 Section IdealitySection(const CellReport& report) {
   Section section = {"Ideality n"};
   for (const IdealityOverLight& over : report.over_light) {
-    AddField(over.source == SweepKind::kSunsVoc ? "Suns-Voc" : "Voc over light",
+    AddField(
+        over.source == SweepKind::kSunsVoc ? "Suns-Voc" : "Voc over light",
+        over.noise_V > 0
+            ? fmt::format("n = {} around Isc, beside a shunt: light = Is exp(Voc / n) + Voc / Rsh "
+                          "by least squares; noise of a voltage {} mV",
+                          RangedText(over.junction), Significant(1000 * over.noise_V, 2))
+            : fmt::format("n = {} around Isc", RangedText(over.junction)),
+        &section);
+    AddField("one line",
              fmt::format("n = {}: (q / k T) dVoc / dln(Isc) by least squares over {} points",
                          RangedText(over.n), over.points.size()),
              &section);
@@ -244,35 +264,6 @@ std::string RangedText(const Ranged& ranged, int digits) {
   return value + " (" + Range(ranged.low_95, ranged.high_95) + ")";
 }
 
-std::string CellVerdict(const CellReport& report) {
-  std::string text;
-  if (report.main == -1) text = "No lit curve that delivers power.";
-  if (report.main == -1 && report.dark && std::isfinite(report.dark->least_n)) {
-    text += fmt::format(" Smallest n of the dark curve: {}.", Significant(report.dark->least_n, 3));
-  }
-  for (const FillFactorLosses& losses : report.losses) {
-    const CellSweep& sweep = report.sweeps[losses.sweep];
-    text += (text.empty() ? "" : " ") +
-            FullSentence(fmt::format("{}: {}", sweep.name, SweepPower(report, sweep)));
-  }
-  text += HysteresisVerdict(report);
-  for (const IdealityOverLight& over : report.over_light) {
-    const char* source = over.source == SweepKind::kLit ? "over light" : "from Suns-Voc";
-    text +=
-        over.rises_to_low_light
-            ? fmt::format(" n {}: {} at the brightest light, {} at the darkest.", source,
-                          Significant(over.local.back().n, 3), Significant(over.local.front().n, 3))
-            : fmt::format(" n {} {}.", source, RangedText(over.n, 3));
-  }
-  if (report.superposition && std::isfinite(report.superposition->rms_percent)) {
-    text += report.superposition->departs
-                ? fmt::format(" Lit and dark curve do not superpose: {} % of Jsc.",
-                              Significant(report.superposition->rms_percent, 2))
-                : std::string(" Lit and dark curve superpose.");
-  }
-  return text + LossVerdict(report);
-}
-
 Document CellDocument(const CellReport& report) {
   Document document = {Banners(report.interrupted, true, {}, DoubtsOf(report)), CellHead(report)};
   document.verdict = CellVerdict(report);
@@ -280,6 +271,8 @@ Document CellDocument(const CellReport& report) {
                                    SweepSection(report)};
   for (const DirectionPair& pair : report.pairs)
     sections.push_back(Further(PairSection(report, pair)));
+  sections.push_back(RateSection(report));
+  sections.push_back(HourSection(report));
   sections.push_back(Further(IdealitySection(report)));
   sections.push_back(Further(SeriesResistanceSection(report)));
   sections.push_back(Further(FillFactorSection(report)));

@@ -16,9 +16,16 @@ namespace LYREFIT_PUBLIC lyrefit {
 DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& reverse,
                                 double least_percent);
 
-// Pairs each forward with the next unpaired reverse sweep under its light (within 2 %), or the
-// other way round.
+// Pairs each forward with the next unpaired reverse sweep under its light (within 2 %), of its rate
+// and its hours where both state them, or the other way round.
 std::vector<DirectionPair> FindPairs(const std::vector<CellSweep>& sweeps, double least_percent);
+
+// What the gap of the directions does over the rate (doi:10.1039/C4EE03664F): charge of a capacitance
+// and late readings grow with it, ions have a rate at which they are largest, drift goes with the
+// time that a sweep takes. Leaves each pair the causes that its rates allow. None: the pairs state
+// fewer than two rates.
+std::optional<HysteresisOverRate> CompareRates(const std::vector<CellSweep>& sweeps,
+                                               std::vector<DirectionPair>* pairs);
 
 // Series resistances that are taken off before the curves are compared, in ohm.
 struct SeriesOhms {
@@ -58,7 +65,8 @@ FillFactorLosses FindFillFactorLosses(const CellSweep& lit);
 // split that several measurements tell (JointEstimate::collection_part).
 void NameShuntLosses(const JointEstimate& joint, std::vector<FillFactorLosses>* all);
 
-// Intervals of the first three are of the noise of the readings alone.
+// Intervals of the first three are of the noise of the readings and of what the method leaves out:
+// shunt and collection, by the conductances at short circuit.
 
 // Series resistance from two lit curves (Wolf and Rauschenbach 1963, doi:10.1016/0365-1789(63)90063-8):
 // at equal Isc - I both have one junction voltage, so that Rs = (V2 - V1) / (Isc1 - Isc2). The point
@@ -66,15 +74,14 @@ void NameShuntLosses(const JointEstimate& joint, std::vector<FillFactorLosses>* 
 SeriesResistance RsFromTwoLights(const CellSweep& brighter, const CellSweep& darker);
 
 // From a lit and a dark curve: Rs = (V_dark(Isc - Imp) - Vmp - (Isc - Imp) Rs_dark) / Imp at the
-// lit reading of largest power (Pysch 2007, doi:10.1016/j.solmat.2007.05.026). With `dark_rs_ohm` NaN
+// lit reading of largest power (Pysch 2007, doi:10.1016/j.solmat.2007.05.026). With `dark_rs` NaN
 // the series resistance in the dark counts as equal: Rs = (V_dark(Isc - Imp) - Vmp) / Isc.
-SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, double dark_rs_ohm);
+SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, const Ranged& dark_rs);
 
 // From open-circuit voltages over light, which have no Rs in them: Rs = (Voc at the light
 // Isc - Imp, minus Vmp) / Imp, at
-// the reading of largest power. `points` rise in light.
-SeriesResistance RsFromVoc(const CellSweep& lit, const std::vector<VocPoint>& points,
-                           SweepKind source);
+// the reading of largest power.
+SeriesResistance RsFromVoc(const CellSweep& lit, const IdealityOverLight& over);
 
 // The slope at Voc, an upper limit: n Ns kT / q Isc of the junction is in it.
 SeriesResistance RsFromSlope(const CellSweep& lit);
@@ -91,9 +98,11 @@ double PseudoFillFactorOf(double isc_A, const std::vector<VocPoint>& points);
 
 // n from open-circuit voltages over light (see IdealityOverLight); none for fewer than two points.
 // `module_thermal_voltage_V`: Ns k T / q. The interval of n is that of the slope of a least-squares
-// line, for three points and more.
+// line, for three points and more. `isc_A`: of the lit curve whose n is compared; NaN: the brightest
+// light counts.
 std::optional<IdealityOverLight> FindIdealityOverLight(std::vector<VocPoint> points,
-                                                       double module_thermal_voltage_V);
+                                                       double module_thermal_voltage_V,
+                                                       double isc_A = kUnknown);
 
 // The points of a series of lit sweeps: one a light, the mean Isc and Voc of its sweeps. The sweeps
 // are those of one file and direction where one has every light, else all.

@@ -29,11 +29,40 @@ ModelShape ShapeOf(const CellProblem& problem) {
   return shape;
 }
 
+// ln Is of a heated block above that of the others, times n, and its derivative by the temperature.
+struct HeatedSaturation {
+  double times_n = 0;
+  double per_K = 0;
+};
+
+HeatedSaturation SaturationAbove(const CellProblem& problem, double kelvin) {
+  const double part = 1 + kelvin / problem.temperature_K, gap = problem.gap_over_thermal;
+  return {gap * (1 - 1 / part) + 3 * std::log(part),
+          (gap / part + 3) / part / problem.temperature_K};
+}
+
+// Derivatives of a heated block by Is and n of each diode and by its temperature; `row` has those by
+// Is and n of the heated device.
+void ChainToWarmth(const CellProblem& problem, const double* p, const std::vector<double>& device,
+                   double* row) {
+  const double kelvin = p[problem.warmth()];
+  const HeatedSaturation above = SaturationAbove(problem, kelvin);
+  for (int diode = 0; diode < DiodeCount(problem.device); ++diode) {
+    const int at_is = SaturationCurrentIndex(diode), at_n = IdealityIndex(diode);
+    const double n = p[at_n - 1], by_log = row[at_is - 1] * device[at_is];
+    row[problem.warmth()] += row[at_n - 1] * n / problem.temperature_K + by_log * above.per_K / n;
+    row[at_n - 1] =
+        row[at_n - 1] * (1 + kelvin / problem.temperature_K) - by_log * above.times_n / (n * n);
+    row[at_is - 1] *= std::exp(above.times_n / n);
+  }
+}
+
 // Derivatives by the problem's parameters from those by the device's. The shunt in the light has the
 // conductance 1 / Rsh + c Iph. `by_light`: of the photocurrent by the parameter of the light.
 void ChainToProblem(const CellProblem& problem, const double* p, const std::vector<double>& device,
                     const double* by_device, const CellBlock& block, double by_light, double* row) {
   for (int i = 1; i < problem.device.size(); ++i) row[i - 1] = by_device[i];
+  if (problem.warmer && block.heated) ChainToWarmth(problem, p, device, row);
   if (block.pseudo) {
     row[kRs - 1] = 0;
     row[block.light] = by_device[kIph];
@@ -62,11 +91,18 @@ void OpenCircuitSlopes(const Device& device, const double* p, double voltage_V, 
 }  // namespace
 
 std::vector<double> DeviceUnderLight(const CellProblem& problem, const double* p,
-                                     double photocurrent_A) {
+                                     double photocurrent_A, bool heated) {
   std::vector<double> device(problem.device.size());
   device[kIph] = photocurrent_A;
   std::copy_n(p, problem.device.size() - 1, device.begin() + 1);
   device[kRsh] = 1 / (1 / p[kRsh - 1] + p[problem.collection()] * photocurrent_A);
+  if (!problem.warmer || !heated) return device;
+  const double kelvin = p[problem.warmth()], above = SaturationAbove(problem, kelvin).times_n;
+  for (int diode = 0; diode < DiodeCount(problem.device); ++diode) {
+    double& n = device[IdealityIndex(diode)];
+    device[SaturationCurrentIndex(diode)] *= std::exp(above / n);
+    n *= 1 + kelvin / problem.temperature_K;
+  }
   return device;
 }
 
@@ -105,7 +141,8 @@ void CellModel::AddContacts(int block, const double* p, std::vector<double> devi
 bool CellModel::EvaluateCurve(int block, const double* p, double* residuals, double* slopes) const {
   const CellBlock& curve = problem_.blocks[block];
   const int size = shape().size(), points = static_cast<int>(curve.voltage_V.size());
-  std::vector<double> device = DeviceUnderLight(problem_, p, curve.light < 0 ? 0 : p[curve.light]);
+  std::vector<double> device =
+      DeviceUnderLight(problem_, p, curve.light < 0 ? 0 : p[curve.light], curve.heated);
   if (curve.pseudo) {
     device[kRs] = 0;
     device[kRsh] = p[kRsh - 1];
@@ -135,7 +172,7 @@ bool CellModel::EvaluateOpenCircuit(const CellBlock& block, const double* p, dou
   std::array<double, kMostDeviceParameters> by_device;
   for (std::size_t k = 0; k < block.voltage_V.size(); ++k) {
     const std::vector<double> device =
-        DeviceUnderLight(problem_, p, block.current_A[k] * p[block.light]);
+        DeviceUnderLight(problem_, p, block.current_A[k] * p[block.light], block.heated);
     const double voltage_V = ModelOpenCircuit(problem_.device, device.data());
     residuals[k] = scale * (voltage_V - block.voltage_V[k]);
     if (!std::isfinite(residuals[k])) return false;

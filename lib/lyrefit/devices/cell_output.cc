@@ -9,20 +9,22 @@
 namespace lyrefit {
 
 LYREFIT_JSON_FIELDS(StatedKeyPoint, name, stated, found, source)
-LYREFIT_JSON_FIELDS(DirectionPair, forward, reverse, index_power, index_area, index_at_80,
-                    index_at_50, gap_percent, noise_percent, voc_difference_V, isc_difference,
-                    ff_difference, sense, cross, causes)
+LYREFIT_JSON_FIELDS(DirectionPair, forward, reverse, index_power, index_noise, index_area,
+                    index_at_80, index_at_50, gap_percent, noise_percent, voc_difference_V,
+                    isc_difference, ff_difference, sense, cross, causes)
+LYREFIT_JSON_FIELDS(HysteresisOverRate, pairs, finding, causes)
 LYREFIT_JSON_FIELDS(VocPoint, light_A, voc_V)
 LYREFIT_JSON_FIELDS(LocalIdeality, low_A, high_A, n)
-LYREFIT_JSON_FIELDS(IdealityOverLight, source, points, n, local, rises_to_low_light)
+LYREFIT_JSON_FIELDS(IdealityOverLight, source, points, n, junction, shunt_S, noise_V, local,
+                    rises_to_low_light)
 LYREFIT_JSON_FIELDS(DarkIdeality, sweep, least_n, at_V, plateau_low_V, plateau_high_V, fitted)
 LYREFIT_JSON_FIELDS(PseudoFillFactor, value, ideal, source)
 LYREFIT_JSON_FIELDS(FillFactorPart, name, loss)
 LYREFIT_JSON_FIELDS(FillFactorLosses, sweep, ideal, without_resistances, without_series, fitted,
                     measured, parts, green_n1, green_fitted, missing)
-LYREFIT_JSON_FIELDS(Superposition, lit, dark, lit_rs_ohm, dark_rs_ohm, rs_from, rms_percent,
-                    largest_percent, largest_at_V, to_V, noise_percent, voc_shift_V, dark_scale,
-                    scaled_rms_percent, departs, causes, decides)
+LYREFIT_JSON_FIELDS(Superposition, lit, dark, lit_rs_ohm, dark_rs_ohm, rs_from, not_with,
+                    rms_percent, largest_percent, largest_at_V, to_V, noise_percent, voc_shift_V,
+                    dark_scale, scaled_rms_percent, departs, causes, decides)
 
 namespace {
 
@@ -48,6 +50,8 @@ Json SweepJson(const CellReport& report, const CellSweep& sweep) {
             {"direction", sweep.direction},
             {"irradiance_Wm2", sweep.irradiance_W_m2},
             {"irradiance_known", sweep.irradiance_known},
+            {"scan_rate_V_s", sweep.scan_rate_V_s},
+            {"elapsed_h", sweep.elapsed_h},
             {"key_points", sweep.key},
             {"jsc_mA_cm2", sweep.jsc_mA_cm2},
             {"efficiency", sweep.efficiency},
@@ -98,6 +102,10 @@ Json JointJson(const JointEstimate& joint) {
           {"measurements", measurements},
           {"second_diode", joint.second_diode},
           {"second_diode_p", joint.second_diode_p},
+          {"warmer", joint.warmer},
+          {"warmer_p", joint.warmer_p},
+          {"either", joint.either},
+          {"voc_per_K", joint.voc_per_K},
           {"contacts", joint.contacts},
           {"contacts_p", joint.contacts_p},
           {"contact_loss_W", joint.contact_loss_W},
@@ -120,11 +128,13 @@ void to_json(Json& j, const CellReport& report) {
        {"name", report.name},
        {"source", report.source},
        {"area_cm2", report.area_cm2},
+       {"per_area", report.per_area},
        {"cells_in_series", report.cells_in_series},
        {"temperature_C", RoundCelsius(report.temperature_C)},
        {"sweeps", sweeps},
        {"main", report.main},
        {"hysteresis", report.pairs},
+       {"hysteresis_over_rate", report.over_rate},
        {"ideality_over_light", report.over_light},
        {"ideality_dark", report.dark},
        {"resistance_series", resistances},

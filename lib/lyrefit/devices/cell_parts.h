@@ -10,7 +10,7 @@
 
 namespace lyrefit {
 
-// The result in a few sentences: efficiency, hysteresis, ideality, largest loss of fill factor.
+// cell_verdict.cc: the result in a few sentences: efficiency, hysteresis, ideality, largest loss of fill factor.
 std::string CellVerdict(const CellReport& report);
 
 // cell_sections.cc: the resistances, the fill factor and its losses, superposition.
@@ -19,6 +19,23 @@ Section FillFactorSection(const CellReport& report);
 Section SuperpositionSection(const CellReport& report);
 // cell_sections.cc: one model for all measurements, and what each of them adds.
 Section JointSection(const CellReport& report);
+
+// A lit sweep of a series over hours, in parts of the first one of its direction and light.
+struct HourRow {
+  int sweep;  // index into CellReport::sweeps
+  double hours;
+  double since_h;  // the first one
+  double voc;
+  double isc;
+  double ff;
+  double power;
+};
+
+// The series by rising hours; empty: all sweeps are of one time, or none is known.
+std::vector<HourRow> RowsOfHours(const CellReport& report);
+
+// ", as a lit cell 2 K warmer than the dark one makes it"; empty: the joint estimate needs none.
+std::string WarmthText(const CellReport& report);
 
 // "12.3 %" of a fraction; "-" for NaN.
 std::string PercentText(double fraction, int digits = 3);

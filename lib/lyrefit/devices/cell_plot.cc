@@ -60,9 +60,9 @@ Panel LightPanel(const CellReport& report) {
     points.name = over.source == SweepKind::kSunsVoc ? "Suns-Voc" : "light series";
     for (const VocPoint& point : over.points) points.Add(point.light_A, point.voc_V);
     Series line{SeriesKind::kLine, LookOf(index++), 1};
-    const double n = over.junction_n();
+    const double n = over.junction.value;
     line.name =
-        fmt::format("n = {}{}", Significant(n, 3), over.rises_to_low_light ? " (brightest)" : "");
+        fmt::format("n = {}{}", Significant(n, 3), over.rises_to_low_light ? " (around Isc)" : "");
     // Through the brightest point, down to the darkest light.
     const VocPoint &top = over.points.back(), &bottom = over.points.front();
     const double thermal_V =
@@ -94,6 +94,50 @@ Panel DarkPanel(const CellReport& report) {
         series.Add(sweep.voltage_V[k], forward * CurrentFactor(report));
       }
     }
+    panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+// Gap and index by power of the pairs over their rates.
+Panel RatePanel(const CellReport& report) {
+  Panel panel{"Hysteresis over the rate", {"Rate (V/s)"}, {"% (gap: of Jsc)"}};
+  panel.x.log = true;
+  panel.zero_line = true;
+  Series gap{SeriesKind::kLineAndPoints, LookOf(0), 1.5, 0.8};
+  Series index{SeriesKind::kLineAndPoints, LookOf(1), 1.5, 0.8};
+  gap.name = "gap";
+  index.name = "index by power";
+  for (const int i : report.over_rate->pairs) {
+    const DirectionPair& pair = report.pairs[i];
+    const double rate = report.sweeps[pair.forward].scan_rate_V_s;
+    gap.Add(rate, pair.gap_percent);
+    index.Add(rate, 100 * pair.index_power);
+  }
+  for (const Series* series : {&gap, &index}) {
+    panel.notes.push_back(
+        {series->name, series->look.colour, 0.97, series == &gap ? 0.95 : 0.87, "right"});
+  }
+  panel.series = {std::move(gap), std::move(index)};
+  return panel;
+}
+
+// Voc, FF and power of the direction of the main sweep over hours.
+Panel HourPanel(const CellReport& report, const std::vector<HourRow>& rows) {
+  Panel panel{"Over hours", {"Hours"}, {"% of the first sweep"}};
+  const std::pair<const char*, double HourRow::*> quantities[] = {{"Voc", &HourRow::voc},
+                                                                  {"Jsc", &HourRow::isc},
+                                                                  {"FF", &HourRow::ff},
+                                                                  {"Pmp", &HourRow::power}};
+  int index = 0;
+  for (const auto& [name, quantity] : quantities) {
+    Series series{SeriesKind::kLineAndPoints, LookOf(index), 1.5, 0.8};
+    series.name = name;
+    for (const HourRow& row : rows) {
+      if (report.sweeps[row.sweep].direction != report.sweeps[report.main].direction) continue;
+      series.Add(row.hours, 100 * (row.*quantity));
+    }
+    panel.notes.push_back({name, series.look.colour, 0.03, 0.05 + 0.08 * index++, "left"});
     panel.series.push_back(std::move(series));
   }
   return panel;
@@ -150,6 +194,9 @@ Figure CellFigure(const CellReport& report) {
   Figure figure;
   figure.title = report.name;
   if (report.main != -1) figure.panels.push_back(CurvePanel(report, &figure.legend));
+  if (report.over_rate) figure.panels.push_back(RatePanel(report));
+  const std::vector<HourRow> hours = RowsOfHours(report);
+  if (report.main != -1 && !hours.empty()) figure.panels.push_back(HourPanel(report, hours));
   if (!report.over_light.empty()) figure.panels.push_back(LightPanel(report));
   if (report.dark) figure.panels.push_back(DarkPanel(report));
   for (const FillFactorLosses& losses : report.losses) {
@@ -169,6 +216,10 @@ block::Figure FigureBlock(const CellReport& report) {
   block.figure = CellFigure(report);
   std::vector<std::string> shown;
   if (report.main != -1) shown.emplace_back("lit curves");
+  if (report.over_rate) shown.emplace_back("hysteresis over the rate");
+  if (report.main != -1 && !RowsOfHours(report).empty()) {
+    shown.emplace_back("key points over hours, of the first sweep");
+  }
   if (!report.over_light.empty()) {
     shown.emplace_back("open-circuit voltages over light with lines of the junction's n");
   }

@@ -59,7 +59,9 @@ struct CellSweep {
   SweepKind kind = SweepKind::kLit;
   ScanDirection direction = ScanDirection::kForward;
   double irradiance_W_m2 = kUnknown;
-  bool irradiance_known = true;   // false: a default is assumed
+  bool irradiance_known = true;     // false: a default is assumed
+  double scan_rate_V_s = kUnknown;  // that is stated, else of the times of the readings
+  double elapsed_h = kUnknown;    // hours of operation or light before it, or since the first sweep
   std::vector<double> voltage_V;  // rising; equal voltages are averaged
   std::vector<double> current_A;  // of each voltage
   double suns_voc_A = kUnknown;   // see IvCurve::suns_voc_A
@@ -91,13 +93,15 @@ enum class HysteresisSense {
   kNone,      // a gap below the least that counts
   kNormal,    // reverse gives more power
   kInverted,  // forward gives more power
+  kNeither,   // a gap, but an index by power below its noise
 };
 
 template <>
 struct EnumTable<HysteresisSense> {
   static constexpr EnumText<HysteresisSense> kRows[] = {{HysteresisSense::kNone, "none"},
                                                         {HysteresisSense::kNormal, "normal"},
-                                                        {HysteresisSense::kInverted, "inverted"}};
+                                                        {HysteresisSense::kInverted, "inverted"},
+                                                        {HysteresisSense::kNeither, "neither"}};
 };
 
 // Comparison of a forward and a reverse sweep under one light, J of both. Indices are positive
@@ -106,8 +110,10 @@ struct DirectionPair {
   int forward = 0;  // index into CellReport::sweeps
   int reverse = 0;  // index into CellReport::sweeps
   double index_power =
-      kUnknown;                  // (Pmp_rev - Pmp_fwd) / Pmp_rev; doi:10.1021/acsenergylett.8b01627
-  double index_area = kUnknown;  // 1 - A_fwd / A_rev, A the area below J from 0 V to its own Voc
+      kUnknown;  // (Pmp_rev - Pmp_fwd) / Pmp_rev; doi:10.1021/acsenergylett.8b01627
+  double index_noise =
+      kUnknown;  // standard error of the index by power, of the noise of the readings
+  double index_area = kUnknown;     // 1 - A_fwd / A_rev, A the area below J from 0 V to its own Voc
   double index_at_80 = kUnknown;    // (J_rev - J_fwd) / J_rev at 0.8 Voc of the reverse sweep
   double index_at_50 = kUnknown;    // the same at 0.5 Voc
   double gap_percent = kUnknown;    // rms of J_rev - J_fwd from 0 V to the larger Voc, of Jsc_rev
@@ -118,6 +124,13 @@ struct DirectionPair {
   HysteresisSense sense = HysteresisSense::kNone;
   bool cross = false;  // whether the curves cross, so that the index by power hides the gap
   std::vector<std::string> causes;  // of hysteresis, that this pair does not tell apart
+};
+
+// Pairs of directions at several rates of the sweep.
+struct HysteresisOverRate {
+  std::vector<int> pairs;           // indices into CellReport::pairs, by rising rate
+  std::string finding;              // "a maximum at 0.2 V/s"; empty: no pair has hysteresis
+  std::vector<std::string> causes;  // that the rates leave
 };
 
 // An open-circuit voltage and the light at which it was measured, as a photocurrent.
@@ -139,12 +152,16 @@ struct IdealityOverLight {
   SweepKind source = SweepKind::kLit;  // a series of lit curves, or a Suns-Voc trace
   std::vector<VocPoint> points;        // by rising light
   Ranged n;                            // least squares over all points
-  std::vector<LocalIdeality> local;    // of neighbouring points, by rising light
+  // Of the junction beside a shunt, light = Is exp(Voc / n) + Voc / Rsh by least squares over the
+  // lights from 1/30 to 3 times Isc of the brightest lit curve; of fewer than 12 lights from the two
+  // around that Isc.
+  Ranged junction;
+  Ranged shunt_S;      // of that shunt, 0 where none is seen
+  double noise_V = 0;  // of a voltage, by the scatter around this; 0 of few lights
+  // By rising light: of points that are so far apart that noise is at most 5 % of n.
+  std::vector<LocalIdeality> local;
   // Whether the local n rises towards low light, as a shunt makes it: n / (1 - Voc / (Rsh Isc)).
   bool rises_to_low_light = false;
-
-  // n at the brightest light where the local n rises to low light, else that over all points.
-  double junction_n() const { return rises_to_low_light ? local.back().n : n.value; }
 };
 
 // n of a dark curve.
@@ -241,7 +258,8 @@ struct Superposition {
   int dark = 0;           // index of the dark one
   double lit_rs_ohm = 0;  // that were taken off
   double dark_rs_ohm = 0;
-  std::string rs_from;                // method of the one in the light
+  std::string rs_from;   // method of the one in the light
+  std::string not_with;  // method whose estimate leaves a departure; empty: none was tried before
   double rms_percent = kUnknown;      // of J_light - (Jsc - J_dark) from 0 V to `to_V`, of Jsc
   double largest_percent = kUnknown;  // signed
   double largest_at_V = kUnknown;
@@ -279,6 +297,12 @@ struct JointEstimate : EstimateReport {
   // A part of the area is behind a series resistance of its own, as corroded fingers and ribbons make
   // it: the measurements need it.
   bool contacts = false;
+  // The lit sweeps are at another temperature than the dark one, parameter dT: the measurements need
+  // it, or explain themselves by a second diode as well (`either`).
+  bool warmer = false;
+  double warmer_p = kUnknown;   // p-value of one temperature against two; NaN: none or all are lit
+  double voc_per_K = kUnknown;  // of the law behind dT, V: what the readings tell is the product
+  bool either = false;
   double contacts_p =
       kUnknown;  // p-value of one series resistance against it; NaN of a single cell
   // Power that this part loses under the brightest light, beside one with the resistance of the rest.
@@ -299,11 +323,14 @@ struct CellReport {
   std::string name;     // of the cell
   std::string source;   // its files
   double area_cm2 = kUnknown;
+  bool per_area = false;  // no area is stated: readings are densities, and figures those of 1 cm2
   int cells_in_series = 1;
   double temperature_C = kUnknown;
+  double bandgap_eV = kUnknown;   // that the files state
   std::vector<CellSweep> sweeps;  // in the order of measurement
   int main = -1;                  // brightest lit sweep, of equals the first; -1: none is lit
   std::vector<DirectionPair> pairs;
+  std::optional<HysteresisOverRate> over_rate;  // two and more rates
   std::vector<IdealityOverLight> over_light;
   std::optional<DarkIdeality> dark;
   std::vector<SeriesResistance> series_resistance;

@@ -94,6 +94,14 @@ Section SuperpositionSection(const CellReport& report) {
                        Significant(found.lit_rs_ohm, 3), Significant(found.dark_rs_ohm, 3),
                        found.rs_from),
            &section);
+  if (!found.not_with.empty()) {
+    AddField(
+        "not with",
+        "Rs of " + found.not_with +
+            ": the light drifted during the sweep or is not what the trace says, or the contacts "
+            "of the measurements differ",
+        &section);
+  }
   if (std::isfinite(found.voc_shift_V)) {
     AddField("Voc", fmt::format("{:+.3g} mV from that of Jsc - J_dark", 1000 * found.voc_shift_V),
              &section);
@@ -190,7 +198,34 @@ std::string ContactsText(const JointEstimate& joint) {
          "electroluminescence image";
 }
 
+// What is known of the temperature of the lit sweeps beside the dark one's.
+std::string WarmerText(const JointEstimate& joint) {
+  const std::string p = fmt::format("p = {}", Significant(joint.warmer_p, 2));
+  const std::string either =
+      joint.either
+          ? "; a second diode and a difference of temperature explain these readings alike: "
+            "a second dark curve right after the lit one decides"
+          : "";
+  if (!joint.warmer) return fmt::format("one for all sweeps ({} of one against two){}", p, either);
+  const auto at = std::find_if(joint.estimates.begin(), joint.estimates.end(),
+                               [](const Estimate& e) { return e.info.symbol == "dT"; });
+  return fmt::format(
+      "the lit sweeps are about {:+.2g} K from the dark one: they miss Voc of its diode by {:+.2g} "
+      "mV, "
+      "and {:.2g} mV/K are usual ({} of one temperature){}",
+      at->refined, 1e3 * joint.voc_per_K * at->refined, 1e3 * joint.voc_per_K, p, either);
+}
+
 }  // namespace
+
+std::string WarmthText(const CellReport& report) {
+  if (!report.joint || !report.joint->warmer) return "";
+  const auto& all = report.joint->estimates;
+  const auto at =
+      std::find_if(all.begin(), all.end(), [](const Estimate& e) { return e.info.symbol == "dT"; });
+  return fmt::format(", as a lit cell about {:.2g} K {} than the dark one makes it",
+                     std::fabs(at->refined), at->refined > 0 ? "warmer" : "colder");
+}
 
 Section JointSection(const CellReport& report) {
   Section section = {"All measurements in one model"};
@@ -210,6 +245,7 @@ Section JointSection(const CellReport& report) {
            fmt::format("{} (one against two, the second of n = 2: p = {})",
                        joint.second_diode ? "two" : "one", Significant(joint.second_diode_p, 2)),
            &section);
+  if (std::isfinite(joint.warmer_p)) AddField("temperature", WarmerText(joint), &section);
   if (std::isfinite(joint.contacts_p)) AddField("contacts", ContactsText(joint), &section);
   AddTable(JointParameters(report, joint), &section);
   AddUnidentifiable(joint.estimates, &section);

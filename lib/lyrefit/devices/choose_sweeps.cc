@@ -1,7 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/devices/describe_sweep.h"
 #include "lyrefit/read/stated_results.h"
 
@@ -15,7 +19,56 @@ bool IsSameLight(const CellSweep& a, const CellSweep& b) {
          kSameLight * std::max(a.irradiance_W_m2, b.irradiance_W_m2);
 }
 
+// Hours of sweeps whose files state dates only: since the first one.
+void FindHours(const CurveSet& cell, std::vector<CellSweep>* sweeps) {
+  std::map<std::string, double> at_s;
+  double first_s = kInfinity;
+  for (const IvCurve& curve : cell.curves) {
+    const std::optional<double> date = ReadDateTime(curve.notes.date);
+    if (!date) continue;
+    at_s[curve.source] = *date;
+    first_s = std::min(first_s, *date);
+  }
+  for (CellSweep& sweep : *sweeps) {
+    const auto date = at_s.find(sweep.file);
+    if (!std::isnan(sweep.elapsed_h) || date == at_s.end()) continue;
+    sweep.elapsed_h = (date->second - first_s) / 3600;
+  }
+}
+
+// Adds to the names of sweeps what tells them apart: rates and hours, where they differ.
+void NameWhatDiffers(double CellSweep::*quantity, const char* unit,
+                     std::vector<CellSweep>* sweeps) {
+  constexpr double kSame = 0.05;
+  double least = kInfinity, most = -kInfinity;
+  for (const CellSweep& sweep : *sweeps) {
+    least = std::fmin(least, sweep.*quantity);
+    most = std::fmax(most, sweep.*quantity);
+  }
+  if (!(most - least > kSame * most)) return;
+  for (CellSweep& sweep : *sweeps) {
+    if (!std::isnan(sweep.*quantity))
+      sweep.name += fmt::format(", {:.3g} {}", sweep.*quantity, unit);
+  }
+}
+
+// Numbers sweeps of one name: "forward, dark (2)".
+void NumberRepeats(std::vector<CellSweep>* sweeps) {
+  std::map<std::string, int> seen;
+  for (CellSweep& sweep : *sweeps) {
+    const int count = ++seen[sweep.name];
+    if (count > 1) sweep.name += fmt::format(" ({})", count);
+  }
+}
+
 }  // namespace
+
+void NameApart(const CurveSet& cell, std::vector<CellSweep>* sweeps) {
+  FindHours(cell, sweeps);
+  NameWhatDiffers(&CellSweep::scan_rate_V_s, "V/s", sweeps);
+  NameWhatDiffers(&CellSweep::elapsed_h, "h", sweeps);
+  NumberRepeats(sweeps);
+}
 
 double ReachedIsc(const CellSweep& sweep) { return sweep.key.short_circuit_current_A; }
 

@@ -1,5 +1,7 @@
 #include "lyrefit/devices/cell_figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,6 +14,12 @@ namespace {
 
 constexpr int kSteps = 1000;
 
+// Causes of hysteresis.
+constexpr char kIons[] = "ions or traps";
+constexpr char kTiming[] = "timing of the meter";
+constexpr char kCharge[] = "a capacitance";
+constexpr char kDrift[] = "drift of the lamp or the temperature";
+
 double IndexAt(const Line& forward, const Line& reverse, double voltage) {
   return (reverse.At(voltage) - forward.At(voltage)) / reverse.At(voltage);
 }
@@ -21,12 +29,12 @@ double IndexAt(const Line& forward, const Line& reverse, double voltage) {
 // everywhere; late readings shift the curve sideways, which does nothing where it is flat.
 std::vector<std::string> CausesOf(const DirectionPair& pair) {
   constexpr double kSeen = 0.01;
-  std::vector<std::string> causes = {"ions or traps"};
-  if (std::fabs(pair.isc_difference) < kSeen) causes.emplace_back("timing of the meter");
+  std::vector<std::string> causes = {kIons};
+  if (std::fabs(pair.isc_difference) < kSeen) causes.emplace_back(kTiming);
   if (pair.sense == HysteresisSense::kNormal && pair.isc_difference > -kSeen) {
-    causes.emplace_back("a capacitance");
+    causes.emplace_back(kCharge);
   }
-  causes.emplace_back("drift of the lamp or the temperature");
+  causes.emplace_back(kDrift);
   return causes;
 }
 
@@ -43,11 +51,76 @@ double BeginOf(const Line& forward, const Line& reverse, double end) {
   return begin <= kLatest * end ? begin : kUnknown;
 }
 
+// Whether two numbers are equal within 5 % or `reach`, or one is not known.
+bool MayBeEqual(double a, double b, double reach) {
+  constexpr double kSame = 0.05;
+  return !(std::fabs(a - b) > std::max(kSame * std::max(a, b), reach));
+}
+
+constexpr double kSweepPair_h = 0.02;  // between the directions of a pair
+
 bool AreOpposite(const CellSweep& a, const CellSweep& b) {
   constexpr double kSameLight = 0.02;
   const double light = std::max(a.irradiance_W_m2, b.irradiance_W_m2);
   return a.kind == SweepKind::kLit && b.kind == SweepKind::kLit && a.direction != b.direction &&
-         std::fabs(a.irradiance_W_m2 - b.irradiance_W_m2) <= kSameLight * light;
+         std::fabs(a.irradiance_W_m2 - b.irradiance_W_m2) <= kSameLight * light &&
+         MayBeEqual(a.scan_rate_V_s, b.scan_rate_V_s, 0) &&
+         MayBeEqual(a.elapsed_h, b.elapsed_h, kSweepPair_h);
+}
+
+// Standard error of the index by power: each maximum is that of a parabola through three readings.
+double NoiseOfIndex(const CellSweep& a, const CellSweep& b) {
+  const double imp = b.key.max_power_current_A;
+  return std::hypot(a.noise_A, b.noise_A) / std::sqrt(3.0) / imp;
+}
+
+// Gap without its noise, at least the noise.
+double OwnGap(const DirectionPair& pair) {
+  const double squares = std::pow(pair.gap_percent, 2) - std::pow(pair.noise_percent, 2);
+  return std::sqrt(std::max(squares, std::pow(std::max(pair.noise_percent, 1e-6), 2)));
+}
+
+struct RateFinding {
+  std::string what;
+  std::vector<std::string> causes;
+};
+
+// `rate`, `gap`: by rising rate. The exponent is that of the gap over the rate from end to end.
+RateFinding JudgeRates(const std::vector<double>& rate, const std::vector<double>& gap,
+                       bool sense_changes) {
+  constexpr double kPeak = 1.5, kProportional = 0.7, kConstant = 0.3;
+  const auto at = std::max_element(gap.begin(), gap.end());
+  const double ends = std::max(gap.front(), gap.back());
+  const double exponent = std::log(gap.back() / gap.front()) / std::log(rate.back() / rate.front());
+  if (*at > kPeak * ends) {
+    return {fmt::format("the gap has a maximum at {:.3g} V/s, as ions or slow traps make it; a "
+                        "capacitance and late readings only grow with the rate",
+                        rate[at - gap.begin()]),
+            {kIons}};
+  }
+  if (sense_changes) return {"the index changes its sign with the rate, as ions make it", {kIons}};
+  if (exponent > kProportional) {
+    return {
+        "the gap grows with the rate: late readings, a capacitance, or ions whose maximum lies "
+        "above the fastest rate",
+        {kIons, kTiming, kCharge}};
+  }
+  if (exponent > kConstant) {
+    return {
+        "the gap grows less than the rate: ions or traps, or the charge of the junction that "
+        "saturates; no late readings",
+        {kIons, kCharge}};
+  }
+  if (exponent > -kConstant) {
+    return {
+        "the gap hardly changes with the rate: ions or traps of many time constants; no "
+        "capacitance, no late readings, no drift",
+        {kIons}};
+  }
+  return {
+      "the gap falls as the rate rises: ions or traps whose maximum lies below the slowest rate, "
+      "or a drift of lamp or temperature",
+      {kIons, kDrift}};
 }
 
 }  // namespace
@@ -76,10 +149,15 @@ DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& rever
     lowest = std::min(lowest, gap);
   }
   pair.gap_percent = 100 * std::sqrt(squares / (kSteps + 1));
+  pair.index_noise = NoiseOfIndex(forward, reverse);
   pair.noise_percent = 100 * std::hypot(forward.noise_A, reverse.noise_A) / isc;
   const bool shows = pair.gap_percent >= least_percent && pair.gap_percent > 2 * pair.noise_percent;
   if (shows) {
-    pair.sense = pair.index_power >= 0 ? HysteresisSense::kNormal : HysteresisSense::kInverted;
+    constexpr double kErrors = 2;
+    pair.sense = std::fabs(pair.index_power) < kErrors * pair.index_noise
+                     ? HysteresisSense::kNeither
+                 : pair.index_power >= 0 ? HysteresisSense::kNormal
+                                         : HysteresisSense::kInverted;
     pair.causes = CausesOf(pair);
   }
   const double seen = std::max(3 * pair.noise_percent, least_percent) / 100;
@@ -103,6 +181,43 @@ std::vector<DirectionPair> FindPairs(const std::vector<CellSweep>& sweeps, doubl
     }
   }
   return pairs;
+}
+
+std::optional<HysteresisOverRate> CompareRates(const std::vector<CellSweep>& sweeps,
+                                               std::vector<DirectionPair>* pairs) {
+  constexpr double kOther = 1.2;
+  HysteresisOverRate over;
+  const auto rate_of = [&](int pair) { return sweeps[(*pairs)[pair].forward].scan_rate_V_s; };
+  for (int i = 0; i < static_cast<int>(pairs->size()); ++i) {
+    const CellSweep& first = sweeps[pairs->front().forward];
+    const CellSweep& own = sweeps[(*pairs)[i].forward];
+    if (own.scan_rate_V_s > 0 && MayBeEqual(own.elapsed_h, first.elapsed_h, kSweepPair_h)) {
+      over.pairs.push_back(i);
+    }
+  }
+  std::stable_sort(over.pairs.begin(), over.pairs.end(),
+                   [&](int a, int b) { return rate_of(a) < rate_of(b); });
+  if (over.pairs.empty() || !(rate_of(over.pairs.back()) > kOther * rate_of(over.pairs.front()))) {
+    return std::nullopt;
+  }
+  std::vector<double> rates, gaps;
+  bool shows = false, normal = false, inverted = false;
+  for (const int i : over.pairs) {
+    const DirectionPair& pair = (*pairs)[i];
+    rates.push_back(rate_of(i));
+    gaps.push_back(OwnGap(pair));
+    shows = shows || pair.sense != HysteresisSense::kNone;
+    normal = normal || pair.sense == HysteresisSense::kNormal;
+    inverted = inverted || pair.sense == HysteresisSense::kInverted;
+  }
+  if (!shows) return over;
+  RateFinding found = JudgeRates(rates, gaps, normal && inverted);
+  over.finding = std::move(found.what);
+  over.causes = std::move(found.causes);
+  for (const int i : over.pairs) {
+    if (!(*pairs)[i].causes.empty()) (*pairs)[i].causes = over.causes;
+  }
+  return over;
 }
 
 namespace {
@@ -162,14 +277,20 @@ Superposition WithCauses(Superposition found) {
     found.causes = {found.dark_scale > 1 ? "the lit cell was warmer than the dark one"
                                          : "the dark cell was warmer than the lit one",
                     "light soaking: the light changed the recombination",
-                    "a barrier that the light changes", "collection that depends on voltage"};
+                    "the light drifted during the sweep",
+                    "another resistance of the contacts",
+                    "a barrier that the light changes",
+                    "collection that depends on voltage"};
     found.decides =
         "Voc at once after the light is switched on and after a minute tells warming (it falls) "
         "and soaking (it settles) apart; a second light tells collection apart";
     return found;
   }
   found.causes = {"collection that depends on voltage (photoshunt)",
-                  "a barrier that the light changes", "light soaking",
+                  "a barrier that the light changes",
+                  "light soaking",
+                  "the light drifted during the sweep",
+                  "another resistance of the contacts",
                   "the lit cell was warmer than the dark one"};
   found.decides =
       "a second light: the part that grows with the light is collection; a dark curve right after "

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "lyrefit/base/append.h"
 #include "lyrefit/base/option.h"
@@ -16,24 +15,17 @@
 #include "lyrefit/devices/joint_estimate.h"
 #include "lyrefit/devices/joint_problem.h"
 #include "lyrefit/read/cells.h"
+#include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
 namespace {
 
-// Numbers sweeps of one name: "forward, dark (2)".
-void NumberRepeats(std::vector<CellSweep>* sweeps) {
-  std::map<std::string, int> seen;
-  for (CellSweep& sweep : *sweeps) {
-    const int count = ++seen[sweep.name];
-    if (count > 1) sweep.name += fmt::format(" ({})", count);
-  }
-}
-
-std::vector<IdealityOverLight> FindIdealities(const std::vector<CellSweep>& sweeps,
-                                              double thermal_V) {
+std::vector<IdealityOverLight> FindIdealities(const CellReport& report, double thermal_V) {
   std::vector<IdealityOverLight> idealities;
+  const std::vector<CellSweep>& sweeps = report.sweeps;
+  const double isc = report.main == -1 ? kUnknown : sweeps[report.main].key.short_circuit_current_A;
   const auto take = [&](SweepKind source, const std::vector<VocPoint>& points) {
-    auto found = FindIdealityOverLight(points, thermal_V);
+    auto found = FindIdealityOverLight(points, thermal_V, isc);
     if (!found) return;
     found->source = source;
     idealities.push_back(std::move(*found));
@@ -62,22 +54,31 @@ bool IsHysteretic(const CellReport& report, int sweep) {
   });
 }
 
-// n over light, the last one that begins below the light of `main`.
-double IdealityAtMain(const CellReport& report) {
-  double n = kUnknown;
+// n of the junction over light, the last one that begins below the light of `main`.
+Ranged IdealityAtMain(const CellReport& report) {
+  Ranged n;
   for (const IdealityOverLight& over : report.over_light) {
-    for (const LocalIdeality& local : over.local) {
-      if (local.low_A < report.sweeps[report.main].key.short_circuit_current_A) n = local.n;
-    }
+    const double isc = report.sweeps[report.main].key.short_circuit_current_A;
+    if (over.points.front().light_A < isc) n = over.junction;
   }
   return n;
+}
+
+// Whether n of a fit is above that over light by more than the least that counts and than the 95 %
+// errors of both.
+bool IsAbove(const Ranged& fitted, const Ranged& over_light) {
+  constexpr double kMost = 1.07;
+  const double error =
+      std::hypot(fitted.high_95 - fitted.low_95, kMost * (over_light.high_95 - over_light.low_95)) /
+      2;
+  const double above = fitted.value - kMost * over_light.value;
+  return above > 0 && !(above <= error);
 }
 
 // Why n of the fits is none of the junction, beside what each sweep alone shows: a pair with
 // hysteresis where n is above `ideal_n` already, and an n above that over light, as collection makes
 // it, which is then in Rs and Rsh as well.
 std::vector<CellSweep> VoidByOtherSweeps(const CellReport& report) {
-  constexpr double kMost = 1.15;
   std::vector<CellSweep> sweeps = report.sweeps;
   for (std::size_t i = 0; i < sweeps.size(); ++i) {
     std::vector<std::string>& reasons = sweeps[i].void_because;
@@ -87,20 +88,20 @@ std::vector<CellSweep> VoidByOtherSweeps(const CellReport& report) {
     }
   }
   for (const int i : BrightestSweeps(report)) {
-    const double fitted = FittedValue(sweeps[i], "n1").value, n = IdealityAtMain(report);
-    if (!(fitted > kMost * n)) continue;
+    const Ranged fitted = FittedValue(sweeps[i], "n1"), n = IdealityAtMain(report);
+    if (!IsAbove(fitted, n)) continue;
     sweeps[i].void_because.push_back(fmt::format(
-        "n = {:.3g} of the fit is above the {:.3g} of Voc over light: collection that depends on "
-        "voltage, or an n that changes along the curve, is in the fit's n, Rs and Rsh",
-        fitted, n));
+        "n = {:.3g} of the fit is above the {:.3g} ({}) of Voc over light: collection that depends "
+        "on voltage, or an n that changes along the curve, is in the fit's n, Rs and Rsh",
+        fitted.value, n.value, Range(n.low_95, n.high_95)));
   }
   return sweeps;
 }
 
 // Rs of the fit of the dark curve, where the fit may be used; else NaN.
-double DarkRs(const CellReport& report) {
+Ranged DarkRs(const CellReport& report) {
   const CellSweep& dark = report.sweeps[report.dark->sweep];
-  return dark.diode() ? FittedValue(dark, "Rs").value : kUnknown;
+  return dark.diode() ? FittedValue(dark, "Rs") : Ranged{};
 }
 
 std::vector<SeriesResistance> RsOfLights(const CellReport& report) {
@@ -117,8 +118,9 @@ std::vector<SeriesResistance> RsOfDark(const CellReport& report) {
   if (!report.dark) return {};
   const CellSweep &main = report.sweeps[report.main], &dark = report.sweeps[report.dark->sweep];
   std::vector<SeriesResistance> list;
-  if (std::isfinite(DarkRs(report))) list.push_back(RsFromDark(main, dark, DarkRs(report)));
-  list.push_back(RsFromDark(main, dark, kUnknown));
+  const Ranged own = DarkRs(report);
+  if (std::isfinite(own.value)) list.push_back(RsFromDark(main, dark, own));
+  list.push_back(RsFromDark(main, dark, {}));
   for (SeriesResistance& one : list) {
     if (!report.superposition->departs) continue;
     one.ohm = {};
@@ -130,7 +132,7 @@ std::vector<SeriesResistance> RsOfDark(const CellReport& report) {
 std::vector<SeriesResistance> RsOfVoc(const CellReport& report) {
   std::vector<SeriesResistance> list;
   for (const IdealityOverLight& over : report.over_light) {
-    list.push_back(RsFromVoc(report.sweeps[report.main], over.points, over.source));
+    list.push_back(RsFromVoc(report.sweeps[report.main], over));
   }
   return list;
 }
@@ -146,28 +148,45 @@ std::vector<SeriesResistance> FindSeriesResistances(const CellReport& report) {
 }
 
 // Series resistances for the test of superposition and their source. An estimate that needs no model
-// of the diode comes before the fit and counts in the dark as well.
-std::pair<SeriesOhms, std::string> SeriesToTakeOff(const CellReport& report) {
+// of the diode comes before the fits and counts in the dark as well.
+struct TakenOff {
+  SeriesOhms ohms;
+  std::string from;
+};
+
+std::vector<TakenOff> SeriesToTakeOff(const CellReport& report) {
+  std::vector<TakenOff> all;
   for (const auto& list : {RsOfVoc(report), RsOfLights(report)}) {
     for (const SeriesResistance& one : list) {
       if (one.method == SeriesMethod::kVocOfLights || !(one.ohm.value >= 0)) continue;
-      return {{one.ohm.value, one.ohm.value}, one.Name()};
+      if (all.empty()) all.push_back({{one.ohm.value, one.ohm.value}, one.Name()});
     }
   }
   const CellSweep& main = report.sweeps[report.main];
-  if (!main.diode()) return {{}, "none: the fit is void"};
-  const double lit = FittedValue(main, "Rs").value, dark = DarkRs(report);
-  return {{lit, std::isfinite(dark) ? dark : lit}, "single-diode fit"};
+  if (main.diode()) {
+    const double lit = FittedValue(main, "Rs").value, dark = DarkRs(report).value;
+    all.push_back({{lit, std::isfinite(dark) ? dark : lit}, "single-diode fit"});
+  }
+  if (all.empty()) all.push_back({{}, "none: the fit is void"});
+  return all;
 }
 
+// The curves superpose where one of the estimates of Rs makes them: another then has what changed
+// between its measurements in it.
 std::optional<Superposition> Superpose(const CellReport& report, double least_percent) {
   if (!report.dark) return std::nullopt;
-  const auto [series, from] = SeriesToTakeOff(report);
-  Superposition found = TestSuperposition(report.sweeps[report.main],
-                                          report.sweeps[report.dark->sweep], series, least_percent);
-  found.lit = report.main;
-  found.dark = report.dark->sweep;
-  found.rs_from = from;
+  std::optional<Superposition> first, found;
+  for (const TakenOff& one : SeriesToTakeOff(report)) {
+    found = TestSuperposition(report.sweeps[report.main], report.sweeps[report.dark->sweep],
+                              one.ohms, least_percent);
+    found->rs_from = one.from;
+    if (first) found->not_with = first->rs_from;
+    if (!first) first = found;
+    if (!found->departs) break;
+  }
+  if (found->departs) found = first;
+  found->lit = report.main;
+  found->dark = report.dark->sweep;
   return found;
 }
 
@@ -297,11 +316,14 @@ Expected<CellReport> DescribeSweeps(const CurveSet& cell, const CellOptions& opt
   report.source = cell.source;
   report.cells_in_series = conditions.cells_in_series;
   report.temperature_C = conditions.cell_temperature_K - kZeroCelsius_K;
+  report.bandgap_eV = cell.curves.front().notes.bandgap_eV.value_or(kUnknown);
   report.assumptions = AssumptionsOf(cell);
   report.non_default_options = NonDefaults(options, kCellOptionTable);
   for (const IvCurve& curve : cell.curves) {
     if (curve.notes.area_cm2) report.area_cm2 = *curve.notes.area_cm2;
+    report.per_area = report.per_area || curve.per_area;
   }
+  if (report.per_area) report.area_cm2 = 1;
   std::vector<MeasuredSweep> measured;
   for (const IvCurve& curve : cell.curves) Append(FindSweeps(curve, report.area_cm2), &measured);
   if (measured.empty()) return Fail("no sweep has five readings", cell.source);
@@ -313,7 +335,7 @@ Expected<CellReport> DescribeSweeps(const CurveSet& cell, const CellOptions& opt
     const CellSweep& sweep = report.sweeps.back();
     report.interrupted = report.interrupted || (sweep.fit && sweep.fit->interrupted);
   }
-  NumberRepeats(&report.sweeps);
+  NameApart(cell, &report.sweeps);
   return report;
 }
 
@@ -328,7 +350,8 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
   const double thermal_V = cell.curves.front().conditions.ModuleThermalVoltage(options.constants);
   report.main = BrightestOf(report.sweeps);
   report.pairs = FindPairs(report.sweeps, options.hysteresis);
-  report.over_light = FindIdealities(report.sweeps, thermal_V);
+  report.over_rate = CompareRates(report.sweeps, &report.pairs);
+  report.over_light = FindIdealities(report, thermal_V);
   report.sweeps = VoidByOtherSweeps(report);
   report.dark = FindDark(report, thermal_V);
   if (report.main != -1) {

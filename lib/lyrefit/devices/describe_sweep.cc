@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/sweep_order.h"
@@ -133,6 +134,17 @@ std::string WhyNoEfficiency(const IvCurve& curve, double jsc_mA_cm2) {
       jsc_mA_cm2);
 }
 
+// Rate of a sweep by the times of its readings, the median; NaN without times.
+double RateOf(const IvCurve& curve) {
+  std::vector<double> rates;
+  for (std::size_t k = 1; k < curve.time_s.size(); ++k) {
+    const double step_s = std::fabs(curve.time_s[k] - curve.time_s[k - 1]);
+    const double step_V = std::fabs(curve.voltage_V[k] - curve.voltage_V[k - 1]);
+    if (step_s > 0 && step_V > 0) rates.push_back(step_V / step_s);
+  }
+  return rates.empty() || curve.suns_voc_A ? kUnknown : Median(std::move(rates));
+}
+
 CellSweep Describe(const IvCurve& curve, double area_cm2) {
   CellSweep sweep;
   sweep.file = curve.source;
@@ -142,6 +154,8 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   sweep.direction = Rises(curve.voltage_V) ? ScanDirection::kForward : ScanDirection::kReverse;
   sweep.irradiance_W_m2 = sweep.kind == SweepKind::kDark ? 0 : curve.conditions.irradiance_W_m2;
   sweep.irradiance_known = curve.irradiance_known || sweep.kind == SweepKind::kDark;
+  sweep.scan_rate_V_s = curve.notes.scan_rate_V_s.value_or(RateOf(curve));
+  sweep.elapsed_h = curve.notes.elapsed_h.value_or(kUnknown);
   sweep.suns_voc_A = curve.suns_voc_A.value_or(kUnknown);
   sweep.pseudo_current = curve.pseudo_current;
   const Line line = MakeLine(curve.voltage_V, curve.current_A);

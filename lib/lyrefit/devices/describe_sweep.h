@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/observer.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/devices/cell_options.h"
 #include "lyrefit/devices/cell_report.h"
@@ -55,6 +56,10 @@ Expected<AcceptedSweeps> LeaveOutRefused(std::vector<MeasuredSweep> measured);
 // where those are nearer.
 std::vector<StatedKeyPoint> CompareStated(const std::vector<StatedResult>& results,
                                           const CellSweep& sweep, double area_cm2);
+
+// Completes the hours of sweeps by the dates of their files, since the first one, and makes names
+// differ: by rate and hours where those do, else by numbers.
+void NameApart(const CurveSet& cell, std::vector<CellSweep>* sweeps);
 
 // Which sweeps of a cell a figure is made of. Results are positions in CellReport::sweeps.
 

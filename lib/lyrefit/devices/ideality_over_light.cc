@@ -1,13 +1,17 @@
 #include "lyrefit/devices/cell_figures.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/roots.h"
 #include "lyrefit/devices/line.h"
 #include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {
 namespace {
+
+constexpr std::size_t kFewLights = 12;  // whose voltages do not show their noise
 
 // Logarithms of the light, and the voltages.
 Line LogLine(const std::vector<VocPoint>& points) {
@@ -67,10 +71,112 @@ std::vector<VocPoint> PointsOfAll(const std::vector<CellSweep>& sweeps) {
   return points;
 }
 
+// Voc = slope ln(light - shunt Voc) + constant by least squares, with the shunt given.
+struct BesideShunt {
+  double slope = kUnknown;
+  double squares = kInfinity;     // sum of the squared deviations, V^2
+  Eigen::VectorXd left;           // deviation of each voltage
+  Eigen::MatrixXd by_parameters;  // of each voltage by slope, constant and shunt
+};
+
+// An error of Voc counts once more in the current of the shunt.
+BesideShunt FitBesideShunt(const std::vector<VocPoint>& points, double shunt_S, double slope) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd by(count, 3);
+  Eigen::VectorXd voltage(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const VocPoint& point = points[k];
+    const double junction_A = point.light_A - shunt_S * point.voc_V;
+    if (!(junction_A > 0)) return {};
+    const double part = 1 / (1 + slope * shunt_S / junction_A);
+    by.row(k) << part * std::log(junction_A), part, -part * slope * point.voc_V / junction_A;
+    voltage[k] = part * point.voc_V;
+  }
+  const Eigen::Vector2d found = by.leftCols(2).colPivHouseholderQr().solve(voltage);
+  const Eigen::VectorXd left = voltage - by.leftCols(2) * found;
+  return {found[0], left.squaredNorm(), left, by};
+}
+
+// The points from 1/30 to 3 times `isc_A`, at least the four brightest of them and of the darker ones.
+std::vector<VocPoint> PointsAround(const std::vector<VocPoint>& points, double isc_A) {
+  constexpr double kBelow = 30, kAbove = 3;
+  constexpr std::size_t kFewest = 4;
+  const double top = isc_A > 0 ? isc_A : points.back().light_A;
+  std::vector<VocPoint> around;
+  for (auto point = points.rbegin(); point != points.rend(); ++point) {
+    const bool near = point->light_A >= top / kBelow || around.size() < kFewest;
+    if (point->light_A <= kAbove * top && near) around.push_back(*point);
+  }
+  return around;
+}
+
+// Standard errors of slope, constant and shunt (where `parameters` has it): by the scatter of the voltages, at least `noise_V`, which
+// neighbours may share.
+Eigen::VectorXd ErrorsBesideShunt(const BesideShunt& fit, Eigen::Index parameters, double noise_V) {
+  const Eigen::VectorXd& left = fit.left;
+  const Eigen::Index count = left.size(), degrees = count - parameters;
+  const double scatter = degrees > 0 ? fit.squares / static_cast<double>(degrees) : 0;
+  const double next = left.head(count - 1).dot(left.tail(count - 1));
+  const double shared = degrees > 3 ? std::clamp(next / fit.squares, 0.0, 0.9) : 0;
+  const double variance = std::max(noise_V * noise_V, scatter * (1 + shared) / (1 - shared));
+  const Eigen::MatrixXd by = fit.by_parameters.leftCols(parameters);
+  return (variance * (by.transpose() * by).inverse().diagonal()).cwiseSqrt();
+}
+
+// n of the junction around `isc_A`, whose light a shunt shares, and this.
+void FindJunction(double isc_A, double noise_V, double thermal_V, IdealityOverLight* found) {
+  const std::vector<VocPoint> points = PointsAround(found->points, isc_A);
+  if (points.size() < 2) return;
+  double slope = FitBesideShunt(points, 0, 0).slope, shunt_S = 0;
+  if (points.size() > 3) {
+    double most_S = kInfinity;
+    for (const VocPoint& point : points) most_S = std::min(most_S, point.light_A / point.voc_V);
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds; ++round) {
+      const auto fits = [&](double shunt) { return -FitBesideShunt(points, shunt, slope).squares; };
+      const double best_S = MaximumBetween(fits, 0, 0.99 * most_S);
+      shunt_S = fits(best_S) > fits(0) ? best_S : 0;
+      slope = FitBesideShunt(points, shunt_S, slope).slope;
+    }
+  }
+  const Eigen::Index parameters = points.size() > 3 && shunt_S > 0 ? 3 : 2;
+  const BesideShunt fit = FitBesideShunt(points, shunt_S, slope);
+  const Eigen::VectorXd errors = ErrorsBesideShunt(fit, parameters, noise_V);
+  const int degrees = static_cast<int>(points.size() - parameters);
+  found->noise_V = degrees > 0 ? std::sqrt(fit.squares / degrees) : 0;
+  const double times = degrees > 0 && found->points.size() >= kFewLights ? StudentT95(degrees) : 2;
+  const double reach = times * errors[0];
+  found->junction = {slope / thermal_V, (slope - reach) / thermal_V, (slope + reach) / thermal_V};
+  found->shunt_S = {shunt_S, 0, 0};
+  if (parameters < 3) return;
+  found->shunt_S.low_95 = shunt_S - times * errors[2];
+  found->shunt_S.high_95 = shunt_S + times * errors[2];
+}
+
+// n of the two of a few lights around `isc_A`, which do not show how n changes along them.
+void TakePair(double isc_A, double noise_V, double thermal_V, IdealityOverLight* found) {
+  LocalIdeality pair = found->local.front();
+  for (const LocalIdeality& local : found->local) {
+    if (!(local.low_A >= isc_A)) pair = local;
+  }
+  const double error = std::sqrt(2.0) * noise_V / thermal_V / std::log(pair.high_A / pair.low_A);
+  found->junction = {pair.n, pair.n - 2 * error, pair.n + 2 * error};
+}
+
+// Where the next point of a local n lies, at least: where noise leaves 5 % of its slope.
+std::size_t NextPoint(const Line& line, std::size_t from, double noise_V, double thermal_V) {
+  constexpr double kErrors = 20;
+  const double least = kErrors * std::sqrt(2.0) * noise_V / thermal_V;
+  std::size_t k = from + 1;
+  while (k < line.x.size() && line.x[k] - line.x[from] < least) ++k;
+  return k;
+}
+
 }  // namespace
 
 std::optional<IdealityOverLight> FindIdealityOverLight(std::vector<VocPoint> points,
-                                                       double module_thermal_voltage_V) {
+                                                       double module_thermal_voltage_V,
+                                                       double isc_A) {
   if (points.size() < 2) return std::nullopt;
   std::sort(points.begin(), points.end(),
             [](const VocPoint& a, const VocPoint& b) { return a.light_A < b.light_A; });
@@ -84,13 +190,26 @@ std::optional<IdealityOverLight> FindIdealityOverLight(std::vector<VocPoint> poi
     found.n.low_95 = found.n.value - reach;
     found.n.high_95 = found.n.value + reach;
   }
-  for (std::size_t k = 1; k < points.size(); ++k) {
+  found.points = points;
+  // A few lights are not set closer than their lamp and the cell's temperature hold still.
+  constexpr double kSetting = 0.02;  // of the thermal voltage: 0.5 mV a cell
+  const bool few = points.size() < kFewLights;
+  const double setting_V = few ? kSetting * module_thermal_voltage_V : 0;
+  FindJunction(isc_A, setting_V, module_thermal_voltage_V, &found);
+  // Where n changes along the lights, neighbours tell their noise better than the one law.
+  found.noise_V = few ? 0 : std::min(found.noise_V, NoiseFromDifferences(line.x, line.y));
+  for (std::size_t low = 0, k = 0; low + 1 < points.size(); low = k) {
+    k = NextPoint(line, low, found.noise_V, module_thermal_voltage_V);
+    if (k == points.size()) {
+      if (!found.local.empty()) break;
+      k = points.size() - 1;
+    }
     found.local.push_back(
-        {points[k - 1].light_A, points[k].light_A,
-         (line.y[k] - line.y[k - 1]) / (line.x[k] - line.x[k - 1]) / module_thermal_voltage_V});
+        {points[low].light_A, points[k].light_A,
+         (line.y[k] - line.y[low]) / (line.x[k] - line.x[low]) / module_thermal_voltage_V});
   }
   found.rises_to_low_light = RisesToLowLight(found.local);
-  found.points = std::move(points);
+  if (few) TakePair(isc_A, setting_V, module_thermal_voltage_V, &found);
   return found;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "lyrefit/base/numbers.h"
@@ -23,6 +24,7 @@ constexpr IntervalRules kJointRules = {
     "these measurements do not fix it: another parameter takes its place"};
 constexpr double kSecondDiodeP = 0.001;  // least p-value of one diode alone
 constexpr double kContactsP = 0.001;     // least p-value of one series resistance alone
+constexpr double kWarmerP = 0.001;       // least p-value of one temperature alone
 constexpr double kMisfit = 0.01;         // of Isc or Voc, as for one curve
 constexpr double kNotShared = 0.003;     // of Isc or Voc, if the curve's own fit is this much
 constexpr double kTimesOwn = 3;          // closer
@@ -152,7 +154,8 @@ double NestedP(const JointCandidate& plain, const JointCandidate& richer, int ex
 // Maximum power of the brightest curve with these series resistances of its parts.
 double PowerOf(const CellProblem& problem, const std::vector<double>& p, double near_ohm,
                double far_ohm) {
-  std::vector<double> near = DeviceUnderLight(problem, p.data(), p[problem.blocks.front().light]);
+  std::vector<double> near =
+      DeviceUnderLight(problem, p.data(), p[problem.blocks.front().light], /*heated=*/true);
   std::vector<double> far = near;
   near[kRs] = near_ohm;
   far[kRs] = far_ohm;
@@ -278,6 +281,55 @@ ShuntFound FindShunt(const CellProblem& problem, const RefineEnd& end, const Joi
                         "collection is needed"};
 }
 
+// Change of Voc with the temperature by the law of a heated block.
+double VocPerKelvin(const JointCell& cell) {
+  const CellProblem& problem = cell.problem;
+  const double thermal_V = problem.device.module_thermal_voltage_V;
+  return (cell.voc_V - (problem.gap_over_thermal + 3) * thermal_V) / problem.temperature_K;
+}
+
+// What one diode at one temperature is tested against.
+struct JointCandidates {
+  std::unique_ptr<JointCandidate> second_diode;
+  std::unique_ptr<JointCandidate> warmer;
+  std::unique_ptr<JointCandidate> both;
+};
+
+// Whether the temperatures of a fit lie within what is tried.
+bool IsInside(const JointCandidate& fit) {
+  constexpr double kAtBound = 0.99;
+  const int at = fit.cell.problem.warmth();
+  return !fit.p().empty() && std::fabs(fit.p()[at]) < kAtBound * fit.cell.problem.upper[at];
+}
+
+// A second diode and a temperature of the lit sweeps above the dark one's (where `may_be_warmer`) are
+// each tried alone and beside the other: what the other makes needless is left out. Where each makes
+// the other needless, the closer one counts.
+const JointCandidate& TryDiodeAndWarmth(const JointCandidate& one, bool may_be_warmer,
+                                        JointCandidates* fits, const EstimateOptions& options,
+                                        const ProgressReporter& progress, JointEstimate* joint) {
+  JointCandidate &two = *fits->second_diode, &warm = *fits->warmer, &both = *fits->both;
+  two.Polish(SecondDiodeStarts(two.cell, one.p()), options, progress);
+  joint->second_diode_p = NestedP(one, two, 1);
+  joint->second_diode = joint->second_diode_p < kSecondDiodeP;
+  if (may_be_warmer) {
+    warm.Polish(WarmerStarts(warm.cell, one.p()), options, progress);
+    joint->warmer_p = IsInside(warm) ? NestedP(one, warm, 1) : 1;
+    joint->warmer = joint->warmer_p < kWarmerP;
+  }
+  if (!joint->warmer) return joint->second_diode ? two : one;
+  both.Polish(SecondDiodeStarts(both.cell, warm.p()), options, progress);
+  const double diode_p = NestedP(warm, both, 1), warmer_p = NestedP(two, both, 1);
+  const bool diode = diode_p < kSecondDiodeP, warmer = warmer_p < kWarmerP && IsInside(both);
+  joint->either = joint->second_diode && !diode && !warmer;
+  if (diode && !warmer) joint->warmer = false;
+  if (joint->either) joint->warmer = NestedP(warm, two, 1) > 0.5;
+  joint->second_diode = diode || (joint->either && !joint->warmer);
+  if (!joint->either) joint->second_diode_p = diode_p;
+  if (joint->second_diode) return joint->warmer ? both : two;
+  return warm;
+}
+
 }  // namespace
 
 std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
@@ -298,12 +350,15 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
     joint.missing = "no sweep has a fit to start from";
     return joint;
   }
-  JointCandidate two(report, lights, dark, options, {/*second_diode=*/true});
-  two.Polish(SecondDiodeStarts(two.cell, one.p()), estimate, progress);
-  joint.second_diode_p = NestedP(one, two, 1);
-  joint.second_diode = joint.second_diode_p < kSecondDiodeP;
-  const JointCandidate& plain = joint.second_diode ? two : one;
-  JointCandidate aged(report, lights, dark, options, {joint.second_diode, /*contacts=*/true});
+  const auto made = [&](const JointKind& kind) {
+    return std::make_unique<JointCandidate>(report, lights, dark, options, kind);
+  };
+  JointCandidates fits = {made({true, false, false}), made({false, false, true}),
+                          made({true, false, true})};
+  const JointCandidate& plain =
+      TryDiodeAndWarmth(one, !lights.empty() && dark >= 0, &fits, estimate, progress, &joint);
+  const JointKind of = plain.kind;
+  JointCandidate aged(report, lights, dark, options, {of.second_diode, true, of.warmer});
   // Laboratory cells depart from their model in more ways, which a small part of the area imitates.
   if (report.cells_in_series > 1) {
     aged.Polish(ContactStarts(aged.cell, plain.p()), estimate, progress);
@@ -311,14 +366,14 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
   }
   joint.contacts = joint.contacts_p < kContactsP;
   // A second diode may have been in the place of the contacts.
-  JointCandidate alone(report, lights, dark, options, {/*second_diode=*/false, /*contacts=*/true});
-  if (joint.contacts && joint.second_diode) {
-    alone.Polish(ContactStarts(alone.cell, one.p()), estimate, progress);
-    const double p = NestedP(alone, aged, 1);
-    joint.second_diode = p < kSecondDiodeP;
-    joint.second_diode_p = p;
+  JointCandidate alone(report, lights, dark, options, {false, true, of.warmer});
+  if (joint.contacts && of.second_diode) {
+    alone.Polish(ContactStarts(alone.cell, (of.warmer ? *fits.warmer : one).p()), estimate,
+                 progress);
+    joint.second_diode_p = NestedP(alone, aged, 1);
+    joint.second_diode = joint.second_diode_p < kSecondDiodeP;
   }
-  const JointCandidate& with = plain.kind.second_diode && !joint.second_diode ? alone : aged;
+  const JointCandidate& with = of.second_diode && !joint.second_diode ? alone : aged;
   const JointCandidate& fit = joint.contacts ? with : plain;
   EstimatedParameters found = JudgeParameters(fit.problem, fit.polished, {}, estimate, progress);
   static_cast<EstimateReport&>(joint) = std::move(found.report);
@@ -331,6 +386,7 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
   const ResistanceLosses losses = FindResistanceLosses(fit, found.end);
   joint.contact_loss_W = losses.contacts_W;
   joint.series_loss = losses.of_power;
+  joint.voc_per_K = VocPerKelvin(fit.cell);
   return joint;
 }
 

@@ -24,6 +24,9 @@ constexpr double kLeastAgedShare = 0.005;       // of the area
 constexpr double kSecondIdeality = 2;           // recombination in the depletion region
 constexpr double kLeastFactor = 0.2;            // of the lights of a Suns-Voc trace
 constexpr double kMostFactor = 5;
+// Of lit sweeps above the dark one. Voc of some devices moves half as much again in a kelvin as by the
+// law here: this holds 5 K of each.
+constexpr double kMostWarmer_K = 8;
 constexpr double kExact = 1e-9;           // least error of a reading, of Isc or Voc
 constexpr std::size_t kFewReadings = 12;  // that do not show their own errors
 constexpr double kErrorOfFew = 1e-3;      // least error of one of them, of Isc or Voc
@@ -60,14 +63,26 @@ void AddShared(const CellOptions& options, JointCell* cell) {
   Add({"c", "collection_slope", "1/V", "part of the photocurrent lost per volt of the junction",
        ParameterKind::kPlain, 0.01},
       0, 1 / cell->voc_V, &problem);
-  if (!problem.contacts) return;
-  Add({"s", "contact_share", "", "part of the area behind a series resistance of its own",
-       ParameterKind::kPlain, 0.1},
-      kLeastAgedShare, 1 - kLeastAgedShare, &problem);
-  Add({"Rc", "contact_resistance", "ohm",
-       "series resistance of that part, as if the whole device were behind it",
-       ParameterKind::kSeries},
-      0, kMostContact * ohm, &problem);
+  if (problem.contacts) {
+    Add({"s", "contact_share", "", "part of the area behind a series resistance of its own",
+         ParameterKind::kPlain, 0.1},
+        kLeastAgedShare, 1 - kLeastAgedShare, &problem);
+    Add({"Rc", "contact_resistance", "ohm",
+         "series resistance of that part, as if the whole device were behind it",
+         ParameterKind::kSeries},
+        0, kMostContact * ohm, &problem);
+  }
+  if (!problem.warmer) return;
+  Add({"dT", "temperature_difference", "K", "of the lit sweeps above the dark one",
+       ParameterKind::kPlain, 1},
+      -kMostWarmer_K, kMostWarmer_K, &problem);
+}
+
+// Band gap of a cell of this Voc: the stated one, else that of silicon or the half a volt above Voc
+// that good cells lose.
+double GapOf(const CellReport& report, double cell_voc_V) {
+  constexpr double kSilicon_eV = 1.121, kLost_V = 0.5;
+  return report.bandgap_eV > 0 ? report.bandgap_eV : std::max(kSilicon_eV, cell_voc_V + kLost_V);
 }
 
 // Least error of a reading. A few readings may be met exactly by parameters of their own.
@@ -81,6 +96,7 @@ void AddCurve(const CellSweep& sweep, JointCell* cell) {
   block.voltage_V = sweep.voltage_V;
   block.current_A = sweep.current_A;
   block.pseudo = sweep.kind == SweepKind::kSunsVoc;
+  block.heated = sweep.kind == SweepKind::kLit;
   if (sweep.kind != SweepKind::kDark) {
     block.light = static_cast<int>(problem.parameters.size());
     Add({"Iph[" + sweep.name + "]", "photocurrent[" + sweep.name + "]", "A",
@@ -146,7 +162,7 @@ ErrorShape ShapeOfBlock(const JointCell& cell, int b, const std::vector<double>&
     for (const double v : block.voltage_V) shape.position.push_back(v / cell.voc_V);
   } else {
     const std::vector<double> device =
-        DeviceUnderLight(problem, p.data(), block.light < 0 ? 0 : p[block.light]);
+        DeviceUnderLight(problem, p.data(), block.light < 0 ? 0 : p[block.light], block.heated);
     AppendErrorShape({problem.device, Objective::kSolvedCurrent, block.voltage_V, block.current_A,
                       std::vector<double>(count, scale * scale), cell.voc_V, device},
                      0, &shape);
@@ -180,12 +196,17 @@ JointCell MakeJointCell(const CellReport& report, const std::vector<int>& lights
                         const CellOptions& options, const JointKind& kind) {
   JointCell cell;
   cell.problem.contacts = kind.contacts;
+  cell.problem.warmer = kind.warmer;
   FindScales(report, lights, dark, &cell);
   Conditions conditions;
   conditions.cell_temperature_K = report.temperature_C + kZeroCelsius_K;
   conditions.cells_in_series = report.cells_in_series;
   cell.problem.device = MakeDevice(kind.second_diode ? Model::kDoubleDiode : Model::kSingleDiode,
                                    conditions, options.constants);
+  cell.problem.temperature_K = conditions.cell_temperature_K;
+  cell.problem.gap_over_thermal = GapOf(report, cell.voc_V / report.cells_in_series) *
+                                  report.cells_in_series /
+                                  cell.problem.device.module_thermal_voltage_V;
   AddShared(options, &cell);
   for (const int i : lights) {
     AddCurve(report.sweeps[i], &cell);
@@ -264,6 +285,16 @@ std::vector<std::vector<double>> SecondDiodeStarts(const JointCell& cell,
       std::copy(single.begin() + kRsh, single.end(), p.begin() + problem.collection());
       starts.push_back(std::move(p));
     }
+  }
+  return starts;
+}
+
+std::vector<std::vector<double>> WarmerStarts(const JointCell& cell,
+                                              const std::vector<double>& plain) {
+  std::vector<std::vector<double>> starts;
+  for (const double kelvin : {-1.5, 1.5}) {
+    starts.push_back(plain);
+    starts.back().insert(starts.back().begin() + cell.problem.warmth(), kelvin);
   }
   return starts;
 }

@@ -25,18 +25,23 @@ struct CellBlock {
   // Position of the parameter of its light: the photocurrent of a curve, or the factor of the stated
   // lights. -1: in the dark.
   int light = -1;
-  double error = 1;  // standard deviation of a reading, A; V of an open-circuit voltage
+  double error = 1;     // standard deviation of a reading, A; V of an open-circuit voltage
+  bool heated = false;  // by its light: see CellProblem::warmer
 };
 
 // Measurements of one cell at one temperature. Parameters: those of the device without its
 // photocurrent, which every block shares, then `collection`, then with `contacts` the share of the
-// area that is behind a series resistance of its own, and this, then the lights. A photocurrent falls
+// area that is behind a series resistance of its own, and this, then with `warmer` the kelvins by
+// which heated blocks are above the others, then the lights. A photocurrent falls
 // with the junction voltage by collection that is linear in it, Iph (1 - c Vj) with c = `collection`
 // in 1/V. This acts as a shunt of conductance c Iph that is not there in the dark. Both series
 // resistances are as if the whole device were behind them: parts of one junction law in parallel.
 struct CellProblem {
   Device device;  // one or more diodes, no effects
   bool contacts = false;
+  bool warmer = false;
+  double temperature_K = 298.15;  // of the blocks that are not heated
+  double gap_over_thermal = 0;    // band gap over k T
   std::vector<ParameterInfo> parameters;
   std::vector<double> lower;
   std::vector<double> upper;
@@ -50,12 +55,14 @@ struct CellProblem {
   int collection() const { return device.size() - 1; }
   int contact_share() const { return device.size(); }
   int contact_resistance() const { return device.size() + 1; }
-  int first_light() const { return device.size() + (contacts ? 2 : 0); }
+  int warmth() const { return first_light() - 1; }
+  int first_light() const { return device.size() + (contacts ? 2 : 0) + (warmer ? 1 : 0); }
 };
 
-// Parameters of the device under a light that gives this photocurrent.
+// Parameters of the device under a light that gives this photocurrent, at the temperature of the
+// block: n Vt grows with T, and Is as (T^3 exp(-Eg / k T))^(1/n).
 std::vector<double> DeviceUnderLight(const CellProblem& problem, const double* p,
-                                     double photocurrent_A);
+                                     double photocurrent_A, bool heated);
 
 // The problem as a model: a block for each measurement, without local unknowns. Residuals of curves
 // are of the solved current.
@@ -96,6 +103,7 @@ double IscOfSweep(const CellSweep& sweep);
 struct JointKind {
   bool second_diode = false;  // of n = 2
   bool contacts = false;      // see CellProblem
+  bool warmer = false;        // see CellProblem
 };
 
 // Blocks of the lit sweeps `lights` (indices, the brightest first), of `dark` (-1: none) and of all
@@ -110,6 +118,10 @@ std::vector<std::vector<double>> JointStarts(const JointCell& cell, const CellRe
 // Starts with a second diode that takes a part of the current of the only one of `single`.
 std::vector<std::vector<double>> SecondDiodeStarts(const JointCell& cell,
                                                    const std::vector<double>& single);
+
+// Starts with lit sweeps above and below the temperature of the dark one, from a fit at one.
+std::vector<std::vector<double>> WarmerStarts(const JointCell& cell,
+                                              const std::vector<double>& plain);
 
 // Starts with a part of the area behind a resistance of its own, from a fit without.
 std::vector<std::vector<double>> ContactStarts(const JointCell& cell,

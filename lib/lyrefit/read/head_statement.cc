@@ -175,6 +175,48 @@ std::optional<double> AsCompliance(const Statement& statement, std::optional<dou
   return value;
 }
 
+// Rate of a sweep in V/s: "Scan rate: 50 mV/s", "scan_rate_V_s".
+std::optional<double> AsScanRate(const Statement& statement) {
+  for (const char* const name : {"scanrate", "sweeprate", "scanspeed", "sweepspeed"}) {
+    const std::string& found = statement.name;
+    if (found.rfind(name, 0) != 0) continue;
+    std::string unit = found.substr(std::string_view(name).size());
+    if (unit.empty()) unit = statement.unit;
+    const bool volt = unit == "vs" || unit == "vs1" || unit == "vpers";
+    const bool milli = unit == "mvs" || unit == "mvs1" || unit == "mvpers";
+    if ((volt || milli) && statement.value != 0) {
+      return std::fabs(statement.value) * (milli ? 1e-3 : 1);
+    }
+  }
+  return std::nullopt;
+}
+
+// Hours of operation or of light before the sweep: "Time: 24 h", "Light soaking (min): 10". A time in
+// seconds must say of what it is, since the settings of a sweep are times too.
+std::optional<double> AsElapsedHours(const Statement& statement) {
+  static const std::set<std::string> kOperation = {
+      "age",       "ageing",        "ageingtime",    "aging",         "agingtime",
+      "elapsed",   "elapsedtime",   "exposuretime",  "lightsoaking",  "lightsoakingtime",
+      "operation", "operatingtime", "operationtime", "soaking",       "soakingtime",
+      "stability", "stabilitytime", "stresstime",    "timeunderlight"};
+  const std::string& unit = statement.unit;
+  double hours = 0;
+  for (const auto& [text, factor] :
+       {std::pair("h", 1.0), std::pair("hr", 1.0), std::pair("hrs", 1.0), std::pair("hour", 1.0),
+        std::pair("hours", 1.0), std::pair("min", 1.0 / 60), std::pair("minutes", 1.0 / 60),
+        std::pair("d", 24.0), std::pair("day", 24.0), std::pair("days", 24.0),
+        std::pair("s", 1.0 / 3600), std::pair("seconds", 1.0 / 3600)}) {
+    const bool bare = unit.empty() && statement.name == text && statement.name.size() > 3;
+    if (unit == text || (bare && factor >= 1)) hours = factor;
+  }
+  const bool operation = kOperation.count(statement.name) != 0;
+  const bool plain = statement.name == "time" || statement.name == unit || unit.empty();
+  if (hours == 0 || !(operation || (plain && hours > 1e-3)) || !(statement.value >= 0)) {
+    return std::nullopt;
+  }
+  return statement.value * hours;
+}
+
 // Records a value of a quantity that has none yet. False if there is no value or an earlier one.
 template <class T>
 bool TakeFirst(const std::optional<T>& value, const Assumption& what, const char* unit,
@@ -271,6 +313,12 @@ bool TakeStatement(const Statement& statement, const std::string& source, TableH
   ConditionSources* in = &said->stated_in;
   if (TakeFirst(AsBypassDiodes(statement), About::kBypassDiodes, "", source,
                 &said->notes.bypass_diodes, head, &in->bypass_diodes)) {
+    return true;
+  }
+  if (TakeFirst(AsScanRate(statement), "scan rate", " V/s", source, &said->notes.scan_rate_V_s,
+                head) ||
+      TakeFirst(AsElapsedHours(statement), "time before the sweep", " h", source,
+                &said->notes.elapsed_h, head)) {
     return true;
   }
   if (TakeModules(statement, source, head)) return true;

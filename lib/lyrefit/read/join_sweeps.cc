@@ -112,6 +112,10 @@ NameAndUnit SplitUnit(std::string_view label) {
   const std::vector<LabelWord> words = SplitLabel(label);
   std::size_t end = 0;
   while (end < words.size() && !words[end].marked_as_unit) ++end;
+  // "voc_V" has its unit as a word.
+  const bool bare = end > 1 && end == words.size() && words[end - 2].text == "voc" &&
+                    FindUnit(ColumnKind::kVoltage, words[end - 1].text) != nullptr;
+  if (bare) --end;
   return {end == 0 ? "" : words[end - 1].text, JoinWords(words, end, words.size())};
 }
 

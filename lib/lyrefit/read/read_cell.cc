@@ -8,21 +8,23 @@
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/read/cells.h"
+#include "lyrefit/read/condition_options.h"
 #include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {
 namespace {
 
-// Short-circuit current at one sun of the brightest lit curve whose light is stated.
-std::optional<double> CurrentAtOneSun(const CurveSet& cell) {
+bool IsLitSweep(const IvCurve& curve) { return !curve.suns_voc_A && !IsDark(curve); }
+
+// Short-circuit current at one sun of the brightest lit curve whose light is stated, or assumed
+// (`known` false).
+std::optional<double> CurrentAtOneSun(const CurveSet& cell, bool known) {
   constexpr double kSun_W_m2 = 1000;
   double brightest = 0;
   std::optional<double> isc;
   for (const IvCurve& curve : cell.curves) {
     const double light = curve.conditions.irradiance_W_m2;
-    if (curve.suns_voc_A || IsDark(curve) || !curve.irradiance_known || !(light > brightest)) {
-      continue;
-    }
+    if (!IsLitSweep(curve) || curve.irradiance_known != known || !(light > brightest)) continue;
     const double found = FindKeyPoints(curve.voltage_V, curve.current_A).short_circuit_current_A;
     if (!(found > 0)) continue;
     brightest = light;
@@ -63,9 +65,46 @@ void Append(CurveSet more, CurveSet* all) {
   for (Assumption& one : more.assumptions) all->assumptions.push_back(std::move(one));
 }
 
+// Gives the lit curves without a stated light this one.
+Expected<void> GiveLight(double irradiance_W_m2, CurveSet* cell) {
+  ConditionOptions light;
+  light.irradiance_W_m2 = irradiance_W_m2;
+  for (IvCurve& curve : cell->curves) {
+    if (IsLitSweep(curve) && !curve.irradiance_known) TRY(ApplyConditions(light, &curve));
+  }
+  return {};
+}
+
+// Densities without an area become currents of the area that another curve states. Error: they stand
+// beside currents of an unknown area.
+Expected<void> SettleAreas(std::optional<double> area_cm2, CurveSet* cell) {
+  const IvCurve* absolute = nullptr;
+  for (const IvCurve& curve : cell->curves) {
+    if (!area_cm2) area_cm2 = curve.notes.area_cm2;
+    if (!curve.per_area && !curve.suns_voc_A) absolute = &curve;
+  }
+  for (IvCurve& curve : cell->curves) {
+    if (!curve.per_area) continue;
+    if (!area_cm2 && absolute != nullptr) {
+      return Fail("the currents of " + absolute->source +
+                      " are no densities, as those here are: give the area with --area-cm2",
+                  curve.source);
+    }
+    if (!area_cm2) continue;
+    for (double& current : curve.current_A) current *= *area_cm2;
+    for (double& sigma : curve.sigma_A) sigma *= *area_cm2;
+    if (curve.suns_voc_A) *curve.suns_voc_A *= *area_cm2;
+    curve.per_area = false;
+  }
+  return {};
+}
+
 }  // namespace
 
-Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOptions& options) {
+Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOptions& given,
+                            std::optional<double> unstated_W_m2) {
+  ReadOptions options = given;
+  options.per_area = true;
   CurveSet all;
   std::vector<std::string> later;
   for (const std::string& file : files) {
@@ -76,10 +115,19 @@ Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOpt
       later.push_back(file);
     }
   }
+  TRY(SettleAreas(options.area_cm2, &all));
+  if (unstated_W_m2) TRY(GiveLight(*unstated_W_m2, &all));
   ReadOptions with_isc = options;
-  if (!with_isc.isc_A) with_isc.isc_A = CurrentAtOneSun(all);
+  if (!with_isc.isc_A) with_isc.isc_A = CurrentAtOneSun(all, true);
+  const bool assumed = !with_isc.isc_A;
+  if (assumed) with_isc.isc_A = CurrentAtOneSun(all, false);
   for (const std::string& file : later) {
     TRY(CurveSet set, ReadFile(file, with_isc));
+    if (assumed && with_isc.isc_A) {
+      set.assumptions.emplace_back(
+          "no light is stated: the lit curve is taken as under 1000 W/m2, one sun of the Suns-Voc "
+          "trace; give the true light with --irradiance-Wm2");
+    }
     Append(std::move(set), &all);
   }
   const bool all_dark = std::all_of(all.curves.begin(), all.curves.end(), IsDark);

@@ -1,6 +1,7 @@
 // Experimental: may change in a minor version (data/stable).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,10 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 // ReadMeasurement() of several files of one cell. A Suns-Voc trace in suns needs the short-circuit
 // current at one sun: where `options` have none, it is that of the brightest lit curve, over its
-// irradiance.
-Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOptions& options = {});
+// irradiance. `unstated_W_m2`: the light of the lit curves that state none; where it is not given
+// either, a trace in suns assumes 1000 W/m2. Current densities without an area are those of 1 cm2
+// (IvCurve::per_area), or of the area that another curve states.
+Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOptions& options = {},
+                            std::optional<double> unstated_W_m2 = {});
 
 }  // namespace lyrefit

@@ -35,7 +35,9 @@ struct ReadOptions {
   // code such as 9.91e37. `assumptions` counts them. False: the first such row is an error.
   bool skip_missing = false;
   std::optional<double> area_cm2;  // of the cell; converts current densities to currents
-  std::optional<double> isc_A;     // at one sun; makes a curve of a Suns-Voc trace
+  // Current densities without an area are the currents of 1 cm2 (IvCurve::per_area), no error.
+  bool per_area = false;
+  std::optional<double> isc_A;  // at one sun; makes a curve of a Suns-Voc trace
   // Keeps readings at a stated current limit, for a diagnosis that names the limit. False: they are
   // left out, since no model follows them, and `assumptions` counts them.
   bool keep_limited = false;

@@ -170,6 +170,13 @@ Expected<void> AskForUnitOfDensity(const Sidecar& sidecar, const IvCurve& curve)
 Expected<void> SettleArea(const ReadOptions& options, const Sidecar& sidecar, IvCurve* curve) {
   const std::optional<double> area_cm2 =
       options.area_cm2 ? options.area_cm2 : sidecar.notes.area_cm2;
+  if (!area_cm2 && options.per_area) {
+    TRY(AskForUnitOfDensity(sidecar, *curve));
+    curve->per_area = true;
+    curve->assumptions.emplace_back(
+        "no area is stated: the current densities are taken as the currents of 1 cm2");
+    return {};
+  }
   if (!area_cm2) {
     return Fail(
         "the table holds current densities: give the area of the cell with --area-cm2, or as "

@@ -42,6 +42,8 @@ constexpr const char* kKnownKeys[] = {"name",
                                       "current_noise",
                                       "area_cm2",
                                       "compliance_A",
+                                      "scan_rate_V_s",
+                                      "elapsed_h",
                                       "light_top",
                                       "light_bottom",
                                       "date"};
@@ -197,6 +199,8 @@ Expected<Sidecar> ReadKeys(SidecarReading* reading) {
   ReadNumber(reading, {"current_resolution_A"}, Sign::kPositive, &notes.current_resolution_A);
   ReadNumber(reading, {"area_cm2"}, Sign::kPositive, &notes.area_cm2);
   ReadNumber(reading, {"compliance_A"}, Sign::kPositive, &notes.compliance_A);
+  ReadNumber(reading, {"scan_rate_V_s"}, Sign::kPositive, &notes.scan_rate_V_s);
+  ReadNumber(reading, {"elapsed_h"}, Sign::kNotNegative, &notes.elapsed_h);
   ReadNumber(reading, {"light_top"}, Sign::kNotNegative, &notes.light_top);
   ReadNumber(reading, {"light_bottom"}, Sign::kNotNegative, &notes.light_bottom);
   ReadText(reading, "date", &notes.date);
@@ -338,6 +342,8 @@ Sidecar Merge(Sidecar own, const Sidecar& common) {
   fill(&notes.current_resolution_A, common.notes.current_resolution_A);
   fill(&notes.area_cm2, common.notes.area_cm2);
   fill(&notes.compliance_A, common.notes.compliance_A);
+  fill(&notes.scan_rate_V_s, common.notes.scan_rate_V_s);
+  fill(&notes.elapsed_h, common.notes.elapsed_h);
   fill(&notes.illuminance_lux, common.notes.illuminance_lux);
   fill(&notes.light_top, common.notes.light_top);
   fill(&notes.light_bottom, common.notes.light_bottom);

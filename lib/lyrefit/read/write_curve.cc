@@ -43,6 +43,8 @@ void AddNotes(const DeviceNotes& notes, nlohmann::ordered_json* sidecar) {
   add("current_resolution_A", notes.current_resolution_A);
   add("area_cm2", notes.area_cm2);
   add("compliance_A", notes.compliance_A);
+  add("scan_rate_V_s", notes.scan_rate_V_s);
+  add("elapsed_h", notes.elapsed_h);
   add("light_top", notes.light_top);
   add("light_bottom", notes.light_bottom);
   if (!notes.date.empty()) (*sidecar)["date"] = notes.date;

@@ -338,10 +338,14 @@ Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set, const TwoJuncti
     if (IsMissed(report.test)) {
       report.exchanged = FindExchangedLights(set, options, prepared, rmse_A, observer);
     }
-    const bool uncertain = std::isnan(stated) ? IsMissed(report.test) : stated > 0;
+    constexpr double kUnlikely = 0.05;
+    const ProgressReporter progress(observer, 0);
+    report.exact_lights_p =
+        PValueOfExactLights(prepared, report.test.noise_A, found.end, progress.stop());
+    const bool uncertain = std::isnan(stated) ? report.exact_lights_p < kUnlikely : stated > 0;
     if (uncertain && !report.exchanged && report.test.noise_A > 0) {
-      fitted = WithUncertainLights(prepared, stated, report.test.noise_A, found.end,
-                                   ProgressReporter(observer, 0).stop());
+      fitted =
+          WithUncertainLights(prepared, stated, report.test.noise_A, found.end, progress.stop());
       found = WithLights(fitted, std::move(found), options, observer);
       report.light_part = fitted.problem.light_sd;
       report.test_of_rest = TestJunctions(fitted, found.end);

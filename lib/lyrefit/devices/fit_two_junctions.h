@@ -56,9 +56,10 @@ struct TwoJunctionReport : EstimateReport {
   // photocurrent, and `estimates` has the excess of the other one's in place of Iph2.
   bool interchangeable = false;
   std::vector<TwoJunctionCurveReport> curves;
-  JunctionTest test;          // at exact lights
-  JunctionTest test_of_rest;  // with uncertain lights; NaN: they are exact
-  double light_part = 0;      // standard deviation of the stated lights; 0: exact
+  JunctionTest test;                 // at exact lights
+  JunctionTest test_of_rest;         // with uncertain lights; NaN: they are exact
+  double exact_lights_p = kUnknown;  // p-value of exact lights against ones that err; NaN: none may
+  double light_part = 0;             // standard deviation of the stated lights; 0: exact
   std::optional<ExchangedLights> exchanged;
   // Which measurement would decide the parameters that are not identifiable; empty: all are.
   std::vector<std::string> decided_by;

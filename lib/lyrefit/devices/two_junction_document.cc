@@ -90,7 +90,15 @@ Section TestSection(const TwoJunctionReport& report) {
         &section);
   };
   say(report.light_part > 0 ? "exact lights" : "test", report.test);
-  if (!(report.light_part > 0)) return section;
+  if (!(report.light_part > 0)) {
+    if (std::isnan(report.exact_lights_p)) return section;
+    AddField("lights",
+             fmt::format("taken as exact (p {:.2g} against errors of the stated ones); "
+                         "--light-accuracy 2% allows for errors that do not show",
+                         report.exact_lights_p),
+             &section);
+    return section;
+  }
   say("with errors", report.test_of_rest);
   AddField(
       "lights",
@@ -252,6 +260,7 @@ std::string TwoJunctionJson(const TwoJunctionReport& report) {
             {"decided_by", report.decided_by},
             {"test", report.test},
             {"test_of_rest", report.test_of_rest},
+            {"exact_lights_p", report.exact_lights_p},
             {"light_part", report.light_part},
             {"exchanged", report.exchanged},
             {"rmse", {{"searched", report.rmse.searched}, {"refined", report.rmse.refined}}},

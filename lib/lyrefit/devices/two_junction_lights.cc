@@ -46,6 +46,25 @@ bool IsMissed(const JunctionTest& test) {
   return test.p_value < kRare;
 }
 
+double PValueOfExactLights(const PreparedTwoJunctions& prepared, double noise_A,
+                           const RefineEnd& exact, const StopToken& stop) {
+  constexpr double kLoose = 0.1;  // of a light: as good as free
+  const PreparedTwoJunctions loose = WithUncertainLights(prepared, kLoose, noise_A, exact, stop);
+  const TwoJunctionModel model(loose.problem);
+  if (!(noise_A > 0) || model.shape().locals() == 0) return kUnknown;
+  RefineOptions how;
+  how.stop = stop;
+  const RefineEnd end = RefineModel(model, exact, how);
+  const Spread spread = FindSpread(model, end, end.active, noise_A * noise_A);
+  double shown = 0;
+  for (const double error : spread.local_error) {
+    if (std::isfinite(error)) shown += std::max(0.0, 1 - error * error / (kLoose * kLoose));
+  }
+  const int extra = std::max(static_cast<int>(std::lround(shown)), 1);
+  return FTestPValue(exact.mean_square, end.mean_square, extra,
+                     std::max(prepared.readings - prepared.free_parameters - extra, 1));
+}
+
 std::vector<std::string> TestWarnings(const TwoJunctionReport& report) {
   std::vector<std::string> warnings;
   if (report.exchanged) {

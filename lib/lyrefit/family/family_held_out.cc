@@ -71,7 +71,7 @@ double HalfWidthOf(const ForecastErrors& errors, const Eigen::VectorXd& gradient
   for (int r = rows.first[curve]; r < rows.first[curve + 1]; ++r) {
     if (rows.kind[r] == kPmpRow) weight[r] = -own_W;
   }
-  return errors.sizes->HalfWidth95(PartsOf(rows, weight));
+  return errors.sizes->HalfWidth95(rows, weight);
 }
 
 // Pmp of curves `left` that `refit` on the curves `kept` did not see, with the interval of a

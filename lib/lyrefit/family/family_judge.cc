@@ -47,7 +47,7 @@ struct Judged {
   // Standard error of a function of this gradient; t of them are half of its 95 % interval.
   double StandardError(const Eigen::VectorXd& gradient) const {
     const Eigen::VectorXd weight = TransposedTimes(rows->influence, gradient);
-    return sizes->HalfWidth95(PartsOf(*rows, weight)) / t;
+    return sizes->HalfWidth95(*rows, weight) / t;
   }
 };
 

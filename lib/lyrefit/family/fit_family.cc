@@ -98,7 +98,8 @@ OutlierFit FitWithoutWrongCells(const RefinedFamily& refined, const CurveSet& se
     const char* unit;
   } kNames[kKeyPointRows] = {{"Isc", "A"}, {"Voc", "V"}, {"Vmp", "V"}, {"Imp", "A"}};
   const FamilyProblem& family = refined.family;
-  const WithoutWrongCells found = FindWrongCells(refined.problem, refined.end, progress.stop());
+  const WithoutWrongCells found =
+      FindWrongCells(refined.problem, refined.end, family.free_parameters, progress.stop());
   OutlierFit fit;
   fit.stopped = progress.Stopped();
   if (found.cells.empty() || fit.stopped) return fit;

@@ -50,6 +50,7 @@ std::optional<KeyPointRowsOf> RowsOfKeyPoints(const JointProblem& problem, const
   Linearization now = Linearize(model, model.Pack(point), active);
   KeyPointRowsOf rows;
   rows.residual = now.residual;
+  rows.log_light = Eigen::VectorXd::Zero(now.residual.size());
   for (int which = 0; which < 2; ++which) {
     const int levels = *std::max_element(level[which].begin(), level[which].end()) + 1;
     rows.by_level[which] = RowMatrix::Zero(now.residual.size(), levels);
@@ -58,6 +59,8 @@ std::optional<KeyPointRowsOf> RowsOfKeyPoints(const JointProblem& problem, const
     const int first = now.first_row[c];
     const RowMatrix by_own = now.local[c];  // ln(light), K
     rows.first.push_back(first);
+    rows.log_light.segment(first, by_own.rows())
+        .setConstant(std::log(free.curves[c].irradiance_W_m2 / kReferenceIrradiance_W_m2));
     for (int k = 0; k < kKeyPointRows; ++k) {
       if (std::isfinite(free.curves[c].key_points->value[k])) rows.kind.push_back(k);
     }
@@ -74,18 +77,34 @@ std::optional<KeyPointRowsOf> RowsOfKeyPoints(const JointProblem& problem, const
   return rows;
 }
 
-ErrorParts PartsOf(const KeyPointRowsOf& rows, const Eigen::VectorXd& weight) {
+namespace {
+
+// Variance of a linear function of the errors, for each error of size 1.
+using ErrorParts = std::array<double, kErrorParts>;
+
+// Factor of the error of a row under a power of light.
+double Dimming(const KeyPointRowsOf& rows, Eigen::Index r, double power) {
+  const bool dims = rows.kind[r] == kIscRow || rows.kind[r] == kPmpRow;
+  return dims ? std::exp(power * rows.log_light[r]) : 1;
+}
+
+ErrorParts PartsOf(const KeyPointRowsOf& rows, const Eigen::VectorXd& weight, double power) {
   ErrorParts parts = {};
-  for (std::size_t r = 0; r < rows.kind.size(); ++r) parts[rows.kind[r]] += weight[r] * weight[r];
+  for (Eigen::Index r = 0; r < weight.size(); ++r) {
+    const double own = weight[r] * Dimming(rows, r, power);
+    parts[rows.kind[r]] += own * own;
+  }
   for (int which = 0; which < 2; ++which) {
     parts[kKeyPointRows + which] = TransposedTimes(rows.by_level[which], weight).squaredNorm();
   }
   return parts;
 }
 
+}  // namespace
+
 namespace {
 
-constexpr std::array<double, 2> kUsualShared = {0.2, 0.002};  // K, part: scales of the priors
+constexpr std::array<double, 2> kUsualShared = {0.3, 0.002};  // K, part: scales of the priors
 // Sizes of shared errors in units of those of the priors.
 constexpr double kSharedGrid[] = {0, 0.25, 0.5, 0.75, 1, 1.5, 2, 2.75, 3.75, 5, 7, 10};
 constexpr int kGridSize = static_cast<int>(std::size(kSharedGrid));
@@ -100,10 +119,12 @@ double LogHalfCauchy(int which, double size) {
   return -std::log1p(part * part);
 }
 
+}  // namespace
+
 // ln of the restricted likelihood of sizes. Products of all columns are taken once for each kind.
 class RestrictedLikelihood {
  public:
-  RestrictedLikelihood(const KeyPointRowsOf& rows, const std::array<bool, 2>& seen) {
+  RestrictedLikelihood(const KeyPointRowsOf& rows, const std::array<bool, 2>& seen, double power) {
     const Eigen::MatrixXd basis = RankedBasis(Eigen::MatrixXd(rows.jacobian));
     for (int which = 0; which < 2; ++which) {
       levels_[which] = seen[which] ? static_cast<int>(rows.by_level[which].cols()) : 0;
@@ -122,6 +143,9 @@ class RestrictedLikelihood {
         if (levels_[1] > 0) row.segment(levels_[0], levels_[1]) = rows.by_level[1].row(own[i]);
         row.segment(shared, basis.cols()) = basis.row(own[i]);
         row[shared + basis.cols()] = rows.residual[own[i]];
+        const double factor = Dimming(rows, own[i], power);
+        row /= factor;
+        logs_ += 2 * std::log(factor);
       }
       count_[k] = static_cast<double>(own.size());
       products_[k] = TransposedTimes(columns, columns);
@@ -133,7 +157,7 @@ class RestrictedLikelihood {
   double At(const std::array<double, kKeyPointRows>& kinds,
             const std::array<double, 2>& shared) const {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(products_[0].rows(), products_[0].cols());
-    double logs = 0;
+    double logs = logs_;
     for (int k = 0; k < kKeyPointRows; ++k) {
       sum += products_[k] / (kinds[k] * kinds[k]);
       logs += 2 * count_[k] * std::log(kinds[k]);
@@ -154,85 +178,111 @@ class RestrictedLikelihood {
  private:
   std::array<int, 2> levels_ = {};
   std::array<double, kKeyPointRows> count_ = {};
+  double logs_ = 0;  // of the factors of rows, twice
   std::array<Eigen::MatrixXd, kKeyPointRows> products_;
 };
 
-}  // namespace
+namespace {
 
-KeyPointErrorSizes::KeyPointErrorSizes(const KeyPointRowsOf& rows, double noise,
-                                       const KeyPointErrors& stated) {
-  constexpr double kWidthOfKinds = 1;  // of ln(size), about the common one
-  constexpr double kNegligible = 1e-4;
-  constexpr int kMostSteps = 30;
-  const std::array<double, 2> known = {stated.temperature_K, stated.irradiance};
-  for (int which = 0; which < 2; ++which) seen_[which] = rows.by_level[which].cols() > 1;
-  const RestrictedLikelihood likelihood(rows, seen_);
-  const auto shared_at = [&](const std::vector<double>& logs) {
-    std::array<double, 2> shared = {};
-    for (int which = 0; which < 2; ++which) {
-      shared[which] =
-          std::isnan(known[which]) ? std::exp(logs[kKeyPointRows + which]) : known[which];
-    }
-    return shared;
-  };
-  const auto value = [&](const std::vector<double>& logs) {
+// ln of likelihood times priors of the logarithms of all sizes. `known`: sizes of shared errors that
+// are stated; NaN: sought.
+struct SizePosterior {
+  const RestrictedLikelihood& likelihood;
+  double noise;
+  std::array<double, 2> known;
+
+  double operator()(const std::vector<double>& logs) const {
+    constexpr double kWidthOfKinds = 1;  // of ln(size), about the common one
     std::array<double, kKeyPointRows> kinds;
     double prior = 0;
     for (int k = 0; k < kKeyPointRows; ++k) {
       kinds[k] = std::exp(logs[k]);
       prior -= 0.5 * std::pow((logs[k] - std::log(noise)) / kWidthOfKinds, 2);
     }
-    const std::array<double, 2> shared = shared_at(logs);
+    std::array<double, 2> shared = known;
     for (int which = 0; which < 2; ++which) {
-      prior +=
-          logs[kKeyPointRows + which] + LogHalfCauchy(which, std::exp(logs[kKeyPointRows + which]));
+      const double log = logs[kKeyPointRows + which];
+      prior += log + LogHalfCauchy(which, std::exp(log));
+      if (std::isnan(known[which])) shared[which] = std::exp(log);
     }
     return likelihood.At(kinds, shared) + prior;
-  };
+  }
+};
+
+// Where the posterior is largest.
+std::vector<double> MostLikely(const SizePosterior& posterior) {
+  constexpr int kMostSteps = 30;
   std::vector<double> best;
   for (const double part : {1.0, 0.1}) {
-    std::vector<double> start(kErrorParts, std::log(noise));
+    std::vector<double> start(kErrorParts, std::log(posterior.noise));
     for (int which = 0; which < 2; ++which) {
       start[kKeyPointRows + which] = std::log(part * kUsualShared[which]);
     }
-    std::vector<double> end = NewtonAscent(value, std::move(start), kMostSteps);
-    if (best.empty() || value(end) > value(best)) best = std::move(end);
+    std::vector<double> end = NewtonAscent(posterior, std::move(start), kMostSteps);
+    if (best.empty() || posterior(end) > posterior(best)) best = std::move(end);
   }
-  const Eigen::MatrixXd curvature = CurvatureAt(value, best);
-  for (int k = 0; k < kKeyPointRows; ++k) {
-    kinds_[k] = std::exp(best[k]);
-    // ln(size) of a chi-square of f degrees of freedom has the variance 1 / (2 f).
-    degrees_[k] = std::max(-0.5 * curvature(k, k), 1.0);
-  }
-  double highest = -HUGE_VAL;
-  for (int i = 0; i < kGridSize; ++i) {
-    for (int j = 0; j < kGridSize; ++j) {
-      std::array<double, 2> size = {kSharedGrid[i] * kUsualShared[0],
-                                    kSharedGrid[j] * kUsualShared[1]};
-      const std::array<int, 2> at = {i, j};
-      double log = 0;
-      bool twice = false;
-      for (int which = 0; which < 2; ++which) {
-        const bool sought = seen_[which] && std::isnan(known[which]);
-        twice = twice || (!sought && at[which] > 0);
-        if (!sought) size[which] = seen_[which] ? known[which] : 0;
-        if (sought) log += LogHalfCauchy(which, size[which]) + std::log(GridWidth(at[which]));
-      }
-      if (twice) continue;
-      log += likelihood.At(kinds_, size);
-      highest = std::max(highest, log);
-      grid_.push_back({log, size});
-    }
-  }
-  double sum = 0;
-  for (GridPoint& one : grid_) sum += one.weight = std::exp(one.weight - highest);
-  for (GridPoint& one : grid_) one.weight /= sum;
-  grid_.erase(std::remove_if(grid_.begin(), grid_.end(),
-                             [](const GridPoint& one) { return one.weight < kNegligible; }),
-              grid_.end());
+  return best;
 }
 
-double KeyPointErrorSizes::HalfWidth95(const ErrorParts& parts) const {
+}  // namespace
+
+KeyPointErrorSizes::KeyPointErrorSizes(const KeyPointRowsOf& rows, double noise,
+                                       const KeyPointErrors& stated) {
+  constexpr double kClearGain = 1;  // of ln likelihood, by another power of light
+  for (int which = 0; which < 2; ++which) seen_[which] = rows.by_level[which].cols() > 1;
+  const std::array<double, 2> known = {seen_[0] ? stated.temperature_K : 0,
+                                       seen_[1] ? stated.irradiance : 0};
+  std::optional<RestrictedLikelihood> likelihood;
+  double highest = -HUGE_VAL;
+  for (const double power : {0.0, -0.5, 0.5}) {
+    RestrictedLikelihood one(rows, seen_, power);
+    const SizePosterior posterior{one, noise, known};
+    const std::vector<double> logs = MostLikely(posterior);
+    const double value = posterior(logs) - (power == 0 ? 0 : kClearGain);
+    if (!(value > highest)) continue;
+    highest = value;
+    power_ = power;
+    const Eigen::MatrixXd curvature = CurvatureAt(posterior, logs);
+    for (int k = 0; k < kKeyPointRows; ++k) {
+      kinds_[k] = std::exp(logs[k]);
+      // ln(size) of a chi-square of f degrees of freedom has the variance 1 / (2 f).
+      degrees_[k] = std::max(-0.5 * curvature(k, k), 1.0);
+    }
+    likelihood = std::move(one);
+  }
+  if (likelihood) FillGrid(*likelihood, known);
+}
+
+void KeyPointErrorSizes::FillGrid(const RestrictedLikelihood& likelihood,
+                                  const std::array<double, 2>& known) {
+  constexpr double kNegligible = 1e-4;
+  std::array<std::vector<std::pair<double, double>>, 2> axes;  // size, ln of its prior
+  for (int which = 0; which < 2; ++which) {
+    if (!std::isnan(known[which])) {
+      axes[which] = {{known[which], 0}};
+      continue;
+    }
+    for (int i = 0; i < kGridSize; ++i) {
+      const double size = kSharedGrid[i] * kUsualShared[which];
+      axes[which].push_back({size, LogHalfCauchy(which, size) + std::log(GridWidth(i))});
+    }
+  }
+  double highest = -HUGE_VAL;
+  for (const auto& [kelvin, prior] : axes[0]) {
+    for (const auto& [light, prior_of_light] : axes[1]) {
+      const double log = prior + prior_of_light + likelihood.At(kinds_, {kelvin, light});
+      highest = std::max(highest, log);
+      grid_.push_back({log, {kelvin, light}});
+    }
+  }
+  for (GridPoint& one : grid_) one.weight = std::exp(one.weight - highest);
+  const auto negligible = [](const GridPoint& one) { return one.weight < kNegligible; };
+  grid_.erase(std::remove_if(grid_.begin(), grid_.end(), negligible), grid_.end());
+}
+
+double KeyPointErrorSizes::HalfWidth95(const KeyPointRowsOf& rows,
+                                       const Eigen::VectorXd& weight) const {
+  const ErrorParts parts = PartsOf(rows, weight, power_);
   double own = 0, own2 = 0;  // variance of the kinds' errors, and its own
   for (int k = 0; k < kKeyPointRows; ++k) {
     const double variance = parts[k] * kinds_[k] * kinds_[k];

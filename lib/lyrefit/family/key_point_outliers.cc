@@ -2,13 +2,15 @@
 #include <cmath>
 
 #include "lyrefit/base/median.h"
+#include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/key_point_errors.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr double kFarOff = 6;          // of the usual miss of its kind
-constexpr double kVisibleOff = 0.01;   // of the value
+constexpr double kVisibleOff = 0.015;  // of the value
+constexpr double kLawMissesBy = 3;     // of the errors that weigh
 constexpr double kLeverage = 0.95;     // a cell of more decides its own fit
 constexpr double kUsualMiss = 1.4826;  // median of a normal distribution to its standard deviation
 
@@ -56,11 +58,28 @@ bool IsWrong(const Misses& misses, int r) {
   return misses.times[r] > kFarOff && std::fabs(misses.part[r]) > kVisibleOff;
 }
 
+// Whether another condition of the same light is missed to the same side: the law does so, not one
+// value.
+bool IsOfItsLight(const JointProblem& problem, const Misses& misses, int row) {
+  constexpr double kAlike = 1.0 / 3, kSameLight = 0.04;
+  const auto curve_of = [&](int r) {
+    const auto& first = misses.rows.first;
+    return std::upper_bound(first.begin(), first.end(), r) - first.begin() - 1;
+  };
+  const auto light_of = [&](int r) { return problem.curves[curve_of(r)].irradiance_W_m2; };
+  for (int r = 0; r < static_cast<int>(misses.part.size()); ++r) {
+    if (r == row || misses.rows.kind[r] != misses.rows.kind[row]) continue;
+    if (std::fabs(light_of(r) / light_of(row) - 1) > kSameLight) continue;
+    if (misses.part[r] / misses.part[row] > kAlike) return true;
+  }
+  return false;
+}
+
 // The row farthest off of those that look wrong; -1: none does.
-int WorstOf(const Misses& misses) {
+int WorstOf(const JointProblem& problem, const Misses& misses) {
   int worst = -1;
   for (int r = 0; r < static_cast<int>(misses.times.size()); ++r) {
-    if (!IsWrong(misses, r)) continue;
+    if (!IsWrong(misses, r) || IsOfItsLight(problem, misses, r)) continue;
     if (worst < 0 || misses.times[r] > misses.times[worst]) worst = r;
   }
   return worst;
@@ -103,14 +122,14 @@ std::optional<WrongCell> Confirmed(WrongCell cell, const JointProblem& problem,
 }  // namespace
 
 WithoutWrongCells FindWrongCells(const JointProblem& problem, const JointEnd& end,
-                                 const StopToken& stop) {
+                                 int free_parameters, const StopToken& stop) {
   constexpr std::size_t kFewest = 4, kCurvesOfOne = 10;
   const std::size_t most = (problem.curves.size() + kCurvesOfOne - 1) / kCurvesOfOne;
   WithoutWrongCells without{{}, problem, end};
   if (problem.curves.size() < kFewest) return without;
   while (without.cells.size() < most && !stop.Stopped()) {
     const std::optional<Misses> misses = MissesOf(without.rest, without.end);
-    const int worst = misses ? WorstOf(*misses) : -1;
+    const int worst = misses ? WorstOf(without.rest, *misses) : -1;
     if (worst < 0) break;
     JointProblem rest = without.rest;
     const WrongCell cell = CellOf(*misses, worst);
@@ -124,6 +143,10 @@ WithoutWrongCells FindWrongCells(const JointProblem& problem, const JointEnd& en
     without.rest = std::move(rest);
     without.end = refit;
   }
+  // A law that misses the others as well says nothing of one value.
+  const double spare = JointDegrees(without.rest, free_parameters, 0);
+  const double scale = std::sqrt(without.end.squares / spare) / problem.key_point_scale_A;
+  if (scale > kLawMissesBy) without = {{}, problem, end};
   return without;
 }
 

@@ -128,7 +128,8 @@ TEST(FitTwoJunctions, TestsTheFitAgainstTheNoise) {
 }
 
 TEST(FitTwoJunctions, AllowsForLightsThatAreOff) {
-  const CurveSet set = MisstatedLights({{1, 1}, {0.9 * 1.02, 1.1 * 0.98}, {1.1 * 0.985, 0.9 * 1.02}});
+  const CurveSet set =
+      MisstatedLights({{1, 1}, {0.9 * 1.02, 1.1 * 0.98}, {1.1 * 0.985, 0.9 * 1.02}});
   TwoJunctionOptions options;
   options.intervals = Intervals::kSymmetric;
   options.light_accuracy = 0;
@@ -159,8 +160,12 @@ TEST(FitTwoJunctions, AllowsForLightsThatAreOff) {
 TEST(FitTwoJunctions, NoticesExchangedSpectra) {
   TwoJunctionOptions options;
   options.intervals = Intervals::kSymmetric;
-  const auto report =
-      FitTwoJunctions(MisstatedLights({{1, 1}, {1.1, 0.9}, {0.9, 1.1}}), options);
+  // Spectra that are mirror images would exchange the junctions alone.
+  CurveSet set;
+  set.curves = {TandemCurve("white", 1, 1), TandemCurve("red", 1.08, 0.8),
+                TandemCurve("blue", 0.7, 1.12)};
+  std::swap(set.curves[1].notes, set.curves[2].notes);
+  const auto report = FitTwoJunctions(Noisy(std::move(set)), options);
   ASSERT_TRUE(report);
   ASSERT_TRUE(report->exchanged);
   EXPECT_EQ(report->exchanged->first, "red");

@@ -94,9 +94,9 @@ CurveSet MatrixFor(const MatrixModule& module, const Conditions2& conditions, do
   CurveSet set;
   set.name = "matrix";
   for (const auto& [irradiance, temperature_C] : conditions) {
-    const TranslatedDevice device = TranslateTo(
-        at, shared, irradiance * (1 + shared_errors.light[irradiance]),
-        temperature_C + kZeroCelsius_K + shared_errors.temperature_K[temperature_C]);
+    const TranslatedDevice device =
+        TranslateTo(at, shared, irradiance * (1 + shared_errors.light[irradiance]),
+                    temperature_C + kZeroCelsius_K + shared_errors.temperature_K[temperature_C]);
     KeyPoints points = ModelKeyPoints(device.device, device.parameters.data());
     points.short_circuit_current_A *= 1 + noise * errors.short_circuit_current * random.Normal();
     points.open_circuit_voltage_V *= 1 + noise * errors.open_circuit_voltage * random.Normal();
@@ -186,8 +186,13 @@ double WidthOf(const FamilyReport& report, const std::string& name) {
 }
 
 const SharedErrors kChamber = {{{15, 0.9}, {25, -0.8}, {50, 1.0}, {75, -0.9}},
-                               {{100, 0.008}, {200, -0.009}, {400, 0.007}, {600, -0.008},
-                                {800, 0.009}, {1000, -0.007}, {1100, 0.008}}};
+                               {{100, 0.008},
+                                {200, -0.009},
+                                {400, 0.007},
+                                {600, -0.008},
+                                {800, 0.009},
+                                {1000, -0.007},
+                                {1100, 0.008}}};
 
 TEST(MatrixFit, FindsErrorsThatConditionsShareAndWidensTheIntervals) {
   const FamilyOptions options = MatrixOptions(TranslationLaw::kPvsyst);
@@ -265,8 +270,8 @@ TEST(MatrixFit, NamesAWrongCellWithTheFitWithoutIt) {
     EXPECT_NEAR(cell.measured / cell.expected, 1.1, 0.02);
     EXPECT_TRUE(report->curves[9].outlier);
     EXPECT_FALSE(report->curves[8].outlier);
-    EXPECT_THAT(report->warnings,
-                ::testing::Contains(HasSubstr(std::string(name) + " of 800 W/m2, 25 C looks wrong")));
+    EXPECT_THAT(report->warnings, ::testing::Contains(HasSubstr(std::string(name) +
+                                                                " of 800 W/m2, 25 C looks wrong")));
     const int rs = report->translation.resistance_series;
     EXPECT_NEAR(report->without_outliers->shared[rs], clean->refined[rs], 0.02);
   }

@@ -285,15 +285,15 @@ EstimateProblem ProblemOf(const PreparedTwoJunctions& prepared, const TwoJunctio
   return problem;
 }
 
-// The fit with uncertain lights from the end of the one with exact lights, whose course it keeps.
+// The fit with uncertain lights from `start`. The course is that of the fit with exact lights.
 EstimatedParameters WithLights(const PreparedTwoJunctions& uncertain, EstimatedParameters exact,
-                               const TwoJunctionOptions& options, const Observer& observer) {
-  const ProgressReporter progress(observer, 0);
+                               const RefineEnd& start, const TwoJunctionOptions& options,
+                               const ProgressReporter& progress) {
   const TwoJunctionModel model(uncertain.problem);
   RefineOptions how;
   how.stop = progress.stop();
   PolishedParameters polished;
-  polished.best = RefineModel(model, exact.end, how);
+  polished.best = RefineModel(model, start, how);
   polished.course = exact.report.refine;
   std::vector<double> searched;
   for (const Estimate& e : exact.report.estimates) searched.push_back(e.searched);
@@ -309,16 +309,12 @@ EstimatedParameters WithLights(const PreparedTwoJunctions& uncertain, EstimatedP
 
 }  // namespace
 
-std::optional<double> RmseOfJunctions(const CurveSet& set, const TwoJunctionOptions& options,
-                                      const Observer& observer) {
-  const auto prepared = PrepareTwoJunctions(set, options);
-  if (!prepared) return std::nullopt;
-  const TwoJunctionModel model(prepared->problem);
-  const EstimatedParameters found =
-      EstimateParameters(ProblemOf(*prepared, model, options),
-                         {options.search, Intervals::kNone, options.threads}, observer);
-  if (found.end.p.empty()) return std::nullopt;
-  return std::sqrt(found.end.mean_square);
+RefineEnd EndOfJunctions(const PreparedTwoJunctions& prepared, const TwoJunctionOptions& options,
+                         const Observer& observer) {
+  const TwoJunctionModel model(prepared.problem);
+  return EstimateParameters(ProblemOf(prepared, model, options),
+                            {options.search, Intervals::kNone, options.threads}, observer)
+      .end;
 }
 
 Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set, const TwoJunctionOptions& options,
@@ -344,9 +340,11 @@ Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set, const TwoJuncti
         PValueOfExactLights(prepared, report.test.noise_A, found.end, progress.stop());
     const bool uncertain = std::isnan(stated) ? report.exact_lights_p < kUnlikely : stated > 0;
     if (uncertain && !report.exchanged && report.test.noise_A > 0) {
-      fitted =
-          WithUncertainLights(prepared, stated, report.test.noise_A, found.end, progress.stop());
-      found = WithLights(fitted, std::move(found), options, observer);
+      const double noise_A = report.test.noise_A;
+      fitted = WithUsualLights(prepared, stated, noise_A);
+      const RefineEnd start = EndOfJunctions(fitted, options, observer);
+      fitted = WithUncertainLights(prepared, stated, noise_A, start, progress.stop());
+      found = WithLights(fitted, std::move(found), start, options, progress);
       report.light_part = fitted.problem.light_sd;
       report.test_of_rest = TestJunctions(fitted, found.end);
     }

@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/spread.h"
 
 namespace lyrefit {
+namespace {
+
+constexpr double kUsualLight = 0.02;  // standard deviation of stated lights
+
+}  // namespace
 
 JunctionTest TestJunctions(const PreparedTwoJunctions& prepared, const FitPoint& point) {
   constexpr double kExactPart = 1e-9;  // of Isc: rounding
@@ -49,7 +55,7 @@ bool IsMissed(const JunctionTest& test) {
 double PValueOfExactLights(const PreparedTwoJunctions& prepared, double noise_A,
                            const RefineEnd& exact, const StopToken& stop) {
   constexpr double kLoose = 0.1;  // of a light: as good as free
-  const PreparedTwoJunctions loose = WithUncertainLights(prepared, kLoose, noise_A, exact, stop);
+  const PreparedTwoJunctions loose = WithUsualLights(prepared, kLoose, noise_A);
   const TwoJunctionModel model(loose.problem);
   if (!(noise_A > 0) || model.shape().locals() == 0) return kUnknown;
   RefineOptions how;
@@ -83,14 +89,19 @@ std::vector<std::string> TestWarnings(const TwoJunctionReport& report) {
   return warnings;
 }
 
+PreparedTwoJunctions WithUsualLights(PreparedTwoJunctions prepared, double sd, double noise_A) {
+  prepared.problem.noise_A = noise_A;
+  prepared.problem.light_sd = std::isnan(sd) ? kUsualLight : sd;
+  return prepared;
+}
+
 PreparedTwoJunctions WithUncertainLights(PreparedTwoJunctions prepared, double sd, double noise_A,
                                          const FitPoint& point, const StopToken& stop) {
-  constexpr double kUsualLight = 0.02, kLightsOfPrior = 2;
+  constexpr double kLightsOfPrior = 2;
   constexpr double kSettled = 0.01;
   constexpr int kRounds = 30;
+  prepared = WithUsualLights(std::move(prepared), sd, noise_A);
   TwoJunctionProblem& problem = prepared.problem;
-  problem.noise_A = noise_A;
-  problem.light_sd = std::isnan(sd) ? kUsualLight : sd;
   FitPoint from = point;
   for (int round = 0; round < kRounds && std::isnan(sd) && !stop.Stopped(); ++round) {
     const TwoJunctionModel model(problem);
@@ -157,9 +168,12 @@ std::optional<ExchangedLights> FindExchangedLights(const CurveSet& set,
       TwoJunctionOptions exchanged = options;
       exchanged.lights[set.curves[a].name] = other;
       exchanged.lights[set.curves[b].name] = one;
-      const auto rmse = RmseOfJunctions(set, exchanged, observer);
-      if (!rmse || !(*rmse < kFarBetter * (best ? best->rmse_A : rmse_A))) continue;
-      best = {set.curves[a].name, set.curves[b].name, *rmse};
+      const auto other_way = PrepareTwoJunctions(set, exchanged);
+      if (!other_way) continue;
+      const RefineEnd end = EndOfJunctions(*other_way, options, observer);
+      const double rmse = end.p.empty() ? HUGE_VAL : std::sqrt(end.mean_square);
+      if (!(rmse < kFarBetter * (best ? best->rmse_A : rmse_A))) continue;
+      best = {set.curves[a].name, set.curves[b].name, rmse};
     }
   }
   return best;

@@ -29,6 +29,9 @@ double PValueOfExactLights(const PreparedTwoJunctions& prepared, double noise_A,
 // What the tests of a report say, and what to do.
 std::vector<std::string> TestWarnings(const TwoJunctionReport& report);
 
+// The problem with uncertain lights of the standard deviation `sd`; NaN: of 2 %.
+PreparedTwoJunctions WithUsualLights(PreparedTwoJunctions prepared, double sd, double noise_A);
+
 // The problem with uncertain lights of the standard deviation `sd`. NaN: of the one that its fit from
 // `point` shows, by expectation and maximisation (Dempster, Laird and Rubin 1977,
 // doi:10.1111/j.2517-6161.1977.tb01600.x), with a prior of 2 % worth two lights: one or two lights
@@ -41,9 +44,9 @@ PreparedTwoJunctions WithUncertainLights(PreparedTwoJunctions prepared, double s
 // doi:10.2307/3002019).
 EstimateErrors ErrorsUnderLights(const PreparedTwoJunctions& prepared, const RefineEnd& end);
 
-// RMSE of a fit of two junctions without intervals, in A; none: the options suit no fit.
-std::optional<double> RmseOfJunctions(const CurveSet& set, const TwoJunctionOptions& options,
-                                      const Observer& observer);
+// The end of a fit of two junctions without intervals.
+RefineEnd EndOfJunctions(const PreparedTwoJunctions& prepared, const TwoJunctionOptions& options,
+                         const Observer& observer);
 
 // Two curves whose stated lights fit far better when exchanged. None: there are none.
 std::optional<ExchangedLights> FindExchangedLights(const CurveSet& set,

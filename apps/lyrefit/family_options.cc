@@ -13,9 +13,9 @@ namespace {
 // Flags about a set of curves, but not about their common device.
 constexpr const char* kSetOnly[] = {"--leave-out"};
 // Flags of a fit of one curve that a joint fit does not have.
-constexpr const char* kOneCurve[] = {"--floor",      "--bounds",        "--loss",
-                                     "--loss-scale", "--kernel",        "--curve",
-                                     "--no-polish",  "--temperature-C", "--irradiance-Wm2"};
+constexpr const char* kOneCurve[] = {"--floor",     "--bounds",        "--kernel",        "--curve",
+                                     "--no-polish", "--temperature-C", "--irradiance-Wm2"};
+constexpr const char* kRobust[] = {"--loss", "--loss-scale"};
 // Flags about the parameters that the curves share.
 constexpr const char* kShared[] = {"--shunt",
                                    "--recombination",
@@ -107,6 +107,9 @@ Expected<void> CheckFamilyFlags(const VerbLine& verb, const FamilyFlags& flags) 
     return RefuseGiven(verb, kSetOnly, need);
   }
   TRY(RefuseGiven(verb, kOneCurve, "is for one curve, not for --family"));
+  TRY(RefuseGiven(verb, kRobust,
+                  "is for one curve. A joint fit names curves and key points that the others "
+                  "contradict, with the parameters without them; --leave-out ID leaves one out"));
   if (flags.family == Family::kFree) {
     return RefuseGiven(verb, kShared,
                        "is about what curves share: --family free fits every curve on its own");

@@ -103,6 +103,91 @@ TEST(FitTwoJunctions, SpectraDecideWhatOneCurveLeavesOpen) {
   EXPECT_THAT(one->decided_by.front(), HasSubstr("second spectrum"));
 }
 
+// The noisy set with these true lights under the stated ones.
+CurveSet MisstatedLights(const std::vector<StatedLight>& lights) {
+  CurveSet set = TandemSet();
+  for (std::size_t c = 0; c < set.curves.size(); ++c) {
+    const DeviceNotes stated = set.curves[c].notes;
+    set.curves[c] = TandemCurve(set.curves[c].name, lights[c].top, lights[c].bottom);
+    set.curves[c].notes = stated;
+  }
+  return Noisy(std::move(set));
+}
+
+TEST(FitTwoJunctions, TestsTheFitAgainstTheNoise) {
+  TwoJunctionOptions options;
+  options.intervals = Intervals::kSymmetric;
+  const auto report = FitTwoJunctions(Noisy(TandemSet()), options);
+  ASSERT_TRUE(report);
+  EXPECT_NEAR(report->test.noise_A, 2e-5, 6e-6);
+  EXPECT_NEAR(report->test.rmse_over_noise, 1, 0.25);
+  EXPECT_GT(report->test.p_value, 0.01);
+  EXPECT_EQ(report->light_part, 0);
+  EXPECT_FALSE(report->exchanged);
+  EXPECT_TRUE(report->warnings.empty());
+}
+
+TEST(FitTwoJunctions, AllowsForLightsThatAreOff) {
+  const CurveSet set =
+      MisstatedLights({{1, 1}, {0.9 * 1.02, 1.1 * 0.98}, {1.1 * 0.985, 0.9 * 1.02}});
+  TwoJunctionOptions options;
+  options.intervals = Intervals::kSymmetric;
+  options.light_accuracy = 0;
+  const auto exact = FitTwoJunctions(set, options);
+  options.light_accuracy = kUnknown;
+  const auto found = FitTwoJunctions(set, options);
+  options.light_accuracy = 0.02;
+  const auto stated = FitTwoJunctions(set, options);
+  ASSERT_TRUE(exact && found && stated);
+  EXPECT_LT(exact->test.p_value, 0.01);
+  EXPECT_THAT(exact->warnings, ::testing::Contains(HasSubstr("more than their noise")));
+  EXPECT_GT(found->light_part, 0.005);
+  EXPECT_EQ(stated->light_part, 0.02);
+  for (const auto* report : {&*found, &*stated}) {
+    EXPECT_FALSE(report->exchanged);
+    EXPECT_GT(report->test_of_rest.p_value, 0.01);
+    EXPECT_EQ(report->curves[0].light_error[0], 0);  // 1:1 is the reference
+    EXPECT_NE(report->curves[1].light_error[0], 0);
+    for (const char* symbol : {"Iph1", "Iph2", "n1", "n2"}) {
+      const Estimate& e = At(*report, symbol);
+      const double truth = kTandemTruth[&e - report->estimates.data()];
+      EXPECT_LE(2 * e.low_95 - e.refined, truth) << symbol;
+      EXPECT_GE(2 * e.high_95 - e.refined, truth) << symbol;
+    }
+  }
+}
+
+TEST(FitTwoJunctions, NoticesExchangedSpectra) {
+  TwoJunctionOptions options;
+  options.intervals = Intervals::kSymmetric;
+  // Spectra that are mirror images would exchange the junctions alone.
+  CurveSet set;
+  set.curves = {TandemCurve("white", 1, 1), TandemCurve("red", 1.08, 0.8),
+                TandemCurve("blue", 0.7, 1.12)};
+  std::swap(set.curves[1].notes, set.curves[2].notes);
+  const auto report = FitTwoJunctions(Noisy(std::move(set)), options);
+  ASSERT_TRUE(report);
+  ASSERT_TRUE(report->exchanged);
+  EXPECT_EQ(report->exchanged->first, "red");
+  EXPECT_EQ(report->exchanged->second, "blue");
+  EXPECT_LT(report->exchanged->rmse_A, 0.6 * report->rmse.refined.solved_current_A);
+  EXPECT_FALSE(report->usable);
+  EXPECT_THAT(report->warnings, ::testing::Contains(HasSubstr("red and blue look exchanged")));
+}
+
+TEST(FitTwoJunctions, SaysNothingOfCellsInSeries) {
+  CurveSet set = Noisy(TandemSet());
+  set.curves.resize(1);
+  set.curves[0].assumptions = {Assumption("cells in series assumed 1", About::kCells),
+                               Assumption("cell temperature assumed 25 C", About::kTemperature)};
+  TwoJunctionOptions options;
+  options.intervals = Intervals::kNone;
+  const auto report = FitTwoJunctions(set, options);
+  ASSERT_TRUE(report);
+  EXPECT_THAT(report->warnings, ::testing::ElementsAre(HasSubstr("cell temperature")));
+  EXPECT_EQ(report->curves[0].curve.assumptions.size(), 1U);
+}
+
 TEST(FitTwoJunctions, AnUnknownLightIsAPhotocurrentOfItsCurve) {
   CurveSet set = TandemSet();
   set.curves.pop_back();

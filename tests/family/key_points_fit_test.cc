@@ -1,5 +1,6 @@
 // Joint fits of matrices of key points.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -78,8 +79,14 @@ std::vector<double> SharedOfModule(const MatrixModule& module) {
   return shared;
 }
 
+// Errors that conditions share: K of a set temperature, part of a level of light.
+struct SharedErrors {
+  std::map<double, double> temperature_K, light;
+};
+
 // `noise`: in units of the default errors.
-CurveSet MatrixFor(const MatrixModule& module, const Conditions2& conditions, double noise = 0) {
+CurveSet MatrixFor(const MatrixModule& module, const Conditions2& conditions, double noise = 0,
+                   SharedErrors shared_errors = {}) {
   const Translation at = TranslationOf(module);
   const std::vector<double> shared = SharedOfModule(module);
   const KeyPointErrors errors;
@@ -88,7 +95,8 @@ CurveSet MatrixFor(const MatrixModule& module, const Conditions2& conditions, do
   set.name = "matrix";
   for (const auto& [irradiance, temperature_C] : conditions) {
     const TranslatedDevice device =
-        TranslateTo(at, shared, irradiance, temperature_C + kZeroCelsius_K);
+        TranslateTo(at, shared, irradiance * (1 + shared_errors.light[irradiance]),
+                    temperature_C + kZeroCelsius_K + shared_errors.temperature_K[temperature_C]);
     KeyPoints points = ModelKeyPoints(device.device, device.parameters.data());
     points.short_circuit_current_A *= 1 + noise * errors.short_circuit_current * random.Normal();
     points.open_circuit_voltage_V *= 1 + noise * errors.open_circuit_voltage * random.Normal();
@@ -96,7 +104,7 @@ CurveSet MatrixFor(const MatrixModule& module, const Conditions2& conditions, do
     points.max_power_W *= 1 + noise * errors.max_power * random.Normal();
     points.max_power_current_A = points.max_power_W / points.max_power_voltage_V;
     IvCurve curve;
-    curve.name = std::to_string(set.curves.size());
+    curve.name = fmt::format("{:g} W/m2, {:g} C", irradiance, temperature_C);
     curve.conditions.cells_in_series = 60;
     curve.conditions.irradiance_W_m2 = irradiance;
     curve.conditions.cell_temperature_K = temperature_C + kZeroCelsius_K;
@@ -162,6 +170,133 @@ TEST(MatrixFit, ReportsErrorsOfEveryConditionAndOfThoseHeldOut) {
   EXPECT_GE(summary.held_out_max_power_of_reference, summary.max_power_of_reference);
   // Pmp at 1000 W/m2 and 25 C as measured there.
   EXPECT_EQ(summary.reference_power_W, report->curves[12].key_points->measured.max_power_W);
+}
+
+const Estimate& EstimateOf(const FamilyReport& report, const std::string& name) {
+  for (const Estimate& e : report.estimates) {
+    if (e.info.name == name) return e;
+  }
+  ADD_FAILURE() << name;
+  return report.estimates.front();
+}
+
+double WidthOf(const FamilyReport& report, const std::string& name) {
+  const Estimate& e = EstimateOf(report, name);
+  return e.high_95 - e.low_95;
+}
+
+const SharedErrors kChamber = {{{15, 0.9}, {25, -0.8}, {50, 1.0}, {75, -0.9}},
+                               {{100, 0.008},
+                                {200, -0.009},
+                                {400, 0.007},
+                                {600, -0.008},
+                                {800, 0.009},
+                                {1000, -0.007},
+                                {1100, 0.008}}};
+
+TEST(MatrixFit, FindsErrorsThatConditionsShareAndWidensTheIntervals) {
+  const FamilyOptions options = MatrixOptions(TranslationLaw::kPvsyst);
+  const auto clean = FitFamily(MatrixFor(kPvsystModule, kIec, 1), options);
+  const auto common = FitFamily(MatrixFor(kPvsystModule, kIec, 1, kChamber), options);
+  ASSERT_TRUE(clean && common);
+  const KeyPointErrors &less = *clean->key_points->found, &more = *common->key_points->found;
+  EXPECT_LT(less.temperature_K, 0.4);
+  EXPECT_LT(less.irradiance, 0.004);
+  EXPECT_GT(more.temperature_K, 0.5);
+  EXPECT_GT(more.irradiance, 0.004);
+  // Those of each kind stay what they are.
+  EXPECT_NEAR(more.open_circuit_voltage, 0.003, 0.0015);
+  for (const char* name : {"R_s", "mu_gamma", "gamma_ref"}) {
+    EXPECT_GT(WidthOf(*common, name), 1.3 * WidthOf(*clean, name)) << name;
+  }
+  for (const char* name : {"I_L_ref", "gamma_ref", "R_s", "alpha_sc", "mu_gamma"}) {
+    const Estimate& e = EstimateOf(*common, name);
+    EXPECT_LE(e.low_95, kPvsystModule.values.at(name)) << name;
+    EXPECT_GE(e.high_95, kPvsystModule.values.at(name)) << name;
+  }
+}
+
+TEST(MatrixFit, TakesStatedErrorsOfConditions) {
+  const CurveSet set = MatrixFor(kPvsystModule, kIec, 1);
+  FamilyOptions options = MatrixOptions(TranslationLaw::kPvsyst);
+  ASSERT_TRUE(ReadKeyPointErrors("temperature=0K,light=0%", &options.key_point_errors));
+  const auto none = FitFamily(set, options);
+  ASSERT_TRUE(ReadKeyPointErrors("temperature=1K,light=1%", &options.key_point_errors));
+  const auto large = FitFamily(set, options);
+  ASSERT_TRUE(none && large);
+  EXPECT_EQ(none->refined, large->refined);
+  EXPECT_EQ(none->key_points->found->temperature_K, 0);
+  EXPECT_EQ(large->key_points->found->temperature_K, 1);
+  EXPECT_GT(WidthOf(*large, "mu_gamma"), 1.5 * WidthOf(*none, "mu_gamma"));
+  EXPECT_GT(WidthOf(*large, "R_s"), 1.5 * WidthOf(*none, "R_s"));
+  const auto forecast = [](const FamilyReport& report) {
+    return report.curves[9].key_points->held_out_power_W.standard_error;
+  };
+  EXPECT_GT(forecast(*large), 1.3 * forecast(*none));
+}
+
+// The set with one value changed by `factor`.
+CurveSet WithWrong(CurveSet set, std::size_t curve, double KeyPoints::*point, double factor) {
+  KeyPoints points = *set.curves[curve].key_points;
+  points.*point *= factor;
+  points.max_power_W = points.max_power_current_A * points.max_power_voltage_V;
+  set.curves[curve].voltage_V.clear();
+  set.curves[curve].current_A.clear();
+  TakeKeyPoints(points, &set.curves[curve]);
+  return set;
+}
+
+TEST(MatrixFit, NamesAWrongCellWithTheFitWithoutIt) {
+  const FamilyOptions options = MatrixOptions(TranslationLaw::kPvsyst);
+  const CurveSet set = MatrixFor(kPvsystModule, kIec, 1);
+  const auto clean = FitFamily(set, options);
+  ASSERT_TRUE(clean);
+  EXPECT_FALSE(clean->without_outliers);
+  const struct {
+    double KeyPoints::*point;
+    const char* name;
+  } cells[] = {{&KeyPoints::max_power_current_A, "Imp"},
+               {&KeyPoints::max_power_voltage_V, "Vmp"},
+               {&KeyPoints::short_circuit_current_A, "Isc"},
+               {&KeyPoints::open_circuit_voltage_V, "Voc"}};
+  for (const auto& [point, name] : cells) {
+    const auto report = FitFamily(WithWrong(set, 9, point, 1.1), options);
+    ASSERT_TRUE(report);
+    ASSERT_TRUE(report->without_outliers) << name;
+    ASSERT_EQ(report->without_outliers->cells.size(), 1U) << name;
+    const OutlierCell& cell = report->without_outliers->cells[0];
+    EXPECT_EQ(cell.point, name);
+    EXPECT_EQ(cell.id, "800 W/m2, 25 C");
+    EXPECT_NEAR(cell.measured / cell.expected, 1.1, 0.02);
+    EXPECT_TRUE(report->curves[9].outlier);
+    EXPECT_FALSE(report->curves[8].outlier);
+    EXPECT_THAT(report->warnings, ::testing::Contains(HasSubstr(std::string(name) +
+                                                                " of 800 W/m2, 25 C looks wrong")));
+    const int rs = report->translation.resistance_series;
+    EXPECT_NEAR(report->without_outliers->shared[rs], clean->refined[rs], 0.02);
+  }
+}
+
+TEST(MatrixFit, LeavesOutAConditionWhoseNameHasAComma) {
+  FamilyOptions options = MatrixOptions(TranslationLaw::kPvsyst);
+  ASSERT_TRUE(ReadLeaveOut("800 W/m2, 25 C,100 W/m2, 15 C", &options, {}));
+  const auto report = FitFamily(MatrixFor(kPvsystModule, kIec, 1), options);
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_EQ(report->curves[9].role, CurveRole::kLeftOut);
+  EXPECT_EQ(report->curves[0].role, CurveRole::kLeftOut);
+  EXPECT_EQ(report->curves[1].role, CurveRole::kFitted);
+}
+
+TEST(MatrixFit, TakesTheSumOfTheGapsOfATandem) {
+  CurveSet set = MatrixFor(kPvsystModule, kIec, 1);
+  for (IvCurve& curve : set.curves) curve.notes.technology = "Amorphous silicon tandem junction";
+  FamilyOptions options = MatrixOptions(TranslationLaw::kPvsyst);
+  options.fixed = {{"EgRef", 3.4}};
+  const auto report = FitFamily(set, options);
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_EQ(report->refined[report->translation.bandgap], 3.4);
+  options.fixed = {{"EgRef", 5.1}};
+  EXPECT_THAT(MessageOf(FitFamily(set, options)), HasSubstr("outside [0.3, 5]"));
 }
 
 // Warnings of a fit by `law` that ends with n = 0.96 and misses the key points by `scale` errors.
@@ -263,6 +398,12 @@ TEST(KeyPointErrorsTest, AreReadByNameInPercent) {
   KeyPointErrors errors;
   ASSERT_TRUE(ReadKeyPointErrors("voc=0.5%,pmp=1", &errors));
   EXPECT_EQ(KeyPointErrorsText(errors), "isc=0.4%,voc=0.5%,vmp=0.6%,pmp=1%");
+  EXPECT_TRUE(std::isnan(errors.temperature_K));
+  ASSERT_TRUE(ReadKeyPointErrors("temperature=0.3K,light=0", &errors));
+  EXPECT_EQ(KeyPointErrorsText(errors),
+            "isc=0.4%,voc=0.5%,vmp=0.6%,pmp=1%,temperature=0.3K,light=0%");
+  EXPECT_THAT(MessageOf(ReadKeyPointErrors("temperature=21", &errors)),
+              HasSubstr("of at least 0 and at most 20 K"));
   EXPECT_THAT(MessageOf(ReadKeyPointErrors("imp=1%", &errors)), HasSubstr("expected isc, voc"));
   EXPECT_THAT(MessageOf(ReadKeyPointErrors("voc", &errors)), HasSubstr("expected isc, voc"));
   for (const char* bad : {"voc=0", "voc=-1%", "voc=51", "voc=x", "voc=nan", "voc="}) {

@@ -114,7 +114,7 @@ inline SampleFamily MakeSampleFamily(int curves) {
       HeldOut{"5 folds of whole curves", 5, {2e-3, 1.9e-3}, 1.8e-3, 2.5e-3, "sweep-0", {}, 1.2e-3};
   report.against = {
       {"sheet.json", "De Soto", {"", 5, {5e-3, 4.9e-3}, 4.8e-3, 6.5e-3, "sweep-3", {}, kUnknown}}};
-  report.without_outliers = WithoutOutliers{{"sweep-2"}, {1.1e-3, 1e-3}, report.refined};
+  report.without_outliers = WithoutOutliers{{"sweep-2"}, {}, {1.1e-3, 1e-3}, report.refined};
   report.candidates = {
       {TranslationLaw::kDeSoto, Model::kSingleDiode, {2e-3, 1.9e-3}, 1.7e-3, 1.8e-3, 0, 7, true},
       {TranslationLaw::kPvsyst,

@@ -62,9 +62,10 @@ TEST(ReadCurveSetTest, ReadsSetsTheirSidecarsMatricesAndJson) {
               {"sidecar", sidecar(SidecarOf::kCurve)},
               {"sidecar of a set", sidecar(SidecarOf::kSet)},
               {"matrix",
-               [](const std::string& text) {
+               [](const std::string& given) {
+                 const auto [text, options] = WithOptions(given);
                  return (HoldsKeyPoints(text, "f") ? "" : "no matrix; ") +
-                        ToldOrError(ReadKeyPoints({text, ""}, "f", "", {}));
+                        ToldOrError(ReadKeyPoints({text, ""}, "f", "", options));
                }},
               {"operating table",
                [](const std::string& given) {

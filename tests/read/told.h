@@ -181,6 +181,7 @@ inline std::pair<std::string, ReadOptions> WithOptions(std::string text) {
     if (name == "current") options.current_column = value;
     if (name == "column") options.column = value;
     if (name == "curve") options.curve = std::stoi(value);
+    if (name == "missing") options.skip_missing = value == "skip";
     if (name == "isc") options.isc_A = std::stod(value);
   }
   return {text, options};

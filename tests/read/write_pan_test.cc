@@ -68,6 +68,29 @@ TEST(PanText, NamesTheTechnologyOfTheBandGap) {
   EXPECT_THAT(*PanText(translation, shared, {}), HasSubstr("Technol=mtCIS\r\n"));
 }
 
+TEST(PanText, HasAmorphousTandemsAndTriples) {
+  const Translation plain = *MakeTranslation(Pvsyst106(ShuntLaw::kExponential, false));
+  const struct {
+    const char* technology;
+    double gap_eV;
+    const char* name;
+  } films[] = {{"Amorphous silicon tandem junction", 3.4, "mtaSiH_Tandem"},
+               {"Amorphous silicon triple junction", 5.1, "mtaSiH_Triple"}};
+  for (const auto& film : films) {
+    PanNotes notes;
+    notes.technology = film.technology;
+    EXPECT_EQ(PanBandgap_eV(film.technology), film.gap_eV);
+    std::vector<double> shared = kFilm;
+    shared[plain.bandgap] = film.gap_eV;
+    const auto text = PanText(plain, shared, notes);
+    ASSERT_TRUE(text) << text.error().ToString();
+    EXPECT_THAT(*text, HasSubstr("Technol=" + std::string(film.name)));
+    EXPECT_THAT(*text, HasSubstr("Remarks, Count=4"));
+    // The reader takes the same gap of that name.
+    EXPECT_EQ(PanBandgap_eV(film.name), film.gap_eV);
+  }
+}
+
 TEST(PanText, SaysWhatAPanFileCannotState) {
   EXPECT_THAT(MessageOf(PanText(*MakeTranslation(DeSoto60()), kSilicon, {})),
               HasSubstr("takes the law pvsyst, not desoto"));
@@ -79,8 +102,8 @@ TEST(PanText, SaysWhatAPanFileCannotState) {
   notes.technology = "mono-Si";
   EXPECT_THAT(MessageOf(PanText(plain, other, notes)),
               HasSubstr("implies EgRef = 1.12 eV by its technology mtSiMono, found 1.121"));
-  notes.technology = "a-Si";
-  EXPECT_THAT(MessageOf(PanText(plain, other, notes)), HasSubstr("name of the technology a-Si"));
+  notes.technology = "organic";
+  EXPECT_THAT(MessageOf(PanText(plain, other, notes)), HasSubstr("name of the technology organic"));
   const Translation film = *MakeTranslation(Pvsyst106(ShuntLaw::kExponential, true));
   EXPECT_THAT(MessageOf(PanText(film, With(kFilm, {1.6, 100}), {})),
               HasSubstr("implies NsVbi = 95.4 V by its technology mtCdTe, found 100"));

@@ -242,6 +242,23 @@ void LookAtHead(const IvCurve& curve, Findings* out) {
   }
 }
 
+// Stated key points that no device has.
+void LookAtKeyPoints(const IvCurve& curve, Findings* out) {
+  if (!curve.key_points) return;
+  const KeyPoints& key = *curve.key_points;
+  const auto compare = [&](const char* inner, double a, const char* outer, double b, char unit) {
+    if (!(a > b)) return;
+    out->push_back({"key-points",
+                    fmt::format("{} {:.4g} {} is above {} {:.4g} {}, which no device gives: one of "
+                                "them is wrong",
+                                inner, a, unit, outer, b, unit),
+                    false,
+                    {}});
+  };
+  compare("Imp", key.max_power_current_A, "Isc", key.short_circuit_current_A, 'A');
+  compare("Vmp", key.max_power_voltage_V, "Voc", key.open_circuit_voltage_V, 'V');
+}
+
 }  // namespace
 
 std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
@@ -263,6 +280,7 @@ std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
     }
   }
   for (ReadingFinding& limit : FindEqualReadings(curve)) findings.push_back(std::move(limit));
+  LookAtKeyPoints(curve, &findings);
   LookAtHead(curve, &findings);
   std::stable_sort(
       findings.begin(), findings.end(),

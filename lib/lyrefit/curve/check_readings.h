@@ -14,7 +14,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 struct ReadingFinding {
   std::string id;           // "overflow", "nothing", "sign", "exchanged", "unit", "light", "cells",
                             // "technology", "current", "efficiency", "shape", "temperature",
-                            // "limit", "head"
+                            // "limit", "key-points", "head"
   std::string sentence;     // what was found and what to do; no full stop
   bool refuse = false;      // false: a doubt; the readings can be used
   std::vector<int> points;  // positions in the curve; empty: all points
@@ -35,6 +35,7 @@ struct ReadingFinding {
 //              a module and a cell of some ampere of which none is stated
 //   current, efficiency, shape, temperature   magnitudes that no device has: see CheckPlausibility
 //   limit      equal readings at an end of the curve where those of a device would differ
+//   key-points an Imp above Isc or a Vmp above Voc, where a laboratory states these
 //   head       no temperature is known, but a line of the head speaks of one
 // Real curves have no findings, including dark, coarse, noisy and shaded ones.
 std::vector<ReadingFinding> CheckReadings(const IvCurve& curve);

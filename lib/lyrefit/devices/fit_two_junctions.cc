@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/devices/two_junction_lights.h"
 #include "lyrefit/devices/two_junction_problem.h"
 #include "lyrefit/estimate/fit/estimate_parameters.h"
 
@@ -191,14 +192,17 @@ std::vector<std::string> Deciding(const TwoJunctionProblem& problem, const std::
 
 std::vector<TwoJunctionCurveReport> DescribeCurves(const CurveSet& set,
                                                    const PreparedTwoJunctions& prepared,
-                                                   const std::vector<double>& p) {
+                                                   const FitPoint& point) {
   std::vector<TwoJunctionCurveReport> curves;
+  const std::vector<LightErrors> lights = LightErrorsOf(prepared.problem, point.local);
   const TwoJunctionProblem& problem = prepared.problem;
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
     TwoJunctionCurveReport one;
     one.curve = set.curves[c];
+    Forget(About::kCells, &one.curve.assumptions);  // idealities are those of both junctions
     one.light = prepared.light[c];
-    const auto device = DeviceIn(problem, static_cast<int>(c), p.data());
+    one.light_error = lights[c];
+    const auto device = DeviceIn(problem, static_cast<int>(c), point.p.data(), lights[c]);
     one.parameters.assign(device.begin(), device.end());
     one.limiting = device[JunctionPhotocurrent(0)] <= device[JunctionPhotocurrent(1)] ? 1 : 2;
     double sum = 0;
@@ -216,6 +220,17 @@ std::vector<TwoJunctionCurveReport> DescribeCurves(const CurveSet& set,
   return curves;
 }
 
+// Over all readings.
+double RmseOf(const std::vector<TwoJunctionCurveReport>& curves) {
+  double squares = 0, readings = 0;
+  for (const TwoJunctionCurveReport& one : curves) {
+    const auto count = static_cast<double>(one.curve.size());
+    squares += count * one.rmse_A * one.rmse_A;
+    readings += count;
+  }
+  return std::sqrt(squares / readings);
+}
+
 std::vector<std::string> WarningsOf(const CurveSet& set, const EstimateReport& report) {
   std::vector<std::string> warnings;
   if (report.refine.termination == "no convergence") {
@@ -223,7 +238,7 @@ std::vector<std::string> WarningsOf(const CurveSet& set, const EstimateReport& r
   }
   if (set.curves.size() > 1) return warnings;
   for (const Assumption& assumption : set.curves.front().assumptions) {
-    warnings.push_back(assumption.sentence);
+    if (assumption.about != About::kCells) warnings.push_back(assumption.sentence);
   }
   return warnings;
 }
@@ -262,12 +277,45 @@ EstimateProblem ProblemOf(const PreparedTwoJunctions& prepared, const TwoJunctio
   problem.refit = [&](const ProfileRefit& at, const FitPoint& start) {
     return RefitAt(junctions, at, start);
   };
+  if (junctions.light_sd > 0) {
+    problem.errors = [&](const RefineEnd& end) { return ErrorsUnderLights(prepared, end); };
+  }
   problem.intervals = kTwoJunctionRules;
   problem.restarts = 3;
   return problem;
 }
 
+// The fit with uncertain lights from `start`. The course is that of the fit with exact lights.
+EstimatedParameters WithLights(const PreparedTwoJunctions& uncertain, EstimatedParameters exact,
+                               const RefineEnd& start, const TwoJunctionOptions& options,
+                               const ProgressReporter& progress) {
+  const TwoJunctionModel model(uncertain.problem);
+  RefineOptions how;
+  how.stop = progress.stop();
+  PolishedParameters polished;
+  polished.best = RefineModel(model, start, how);
+  polished.course = exact.report.refine;
+  std::vector<double> searched;
+  for (const Estimate& e : exact.report.estimates) searched.push_back(e.searched);
+  EstimatedParameters found =
+      JudgeParameters(ProblemOf(uncertain, model, options), polished, searched,
+                      {options.search, options.intervals, options.threads}, progress);
+  exact.end = std::move(found.end);
+  exact.report.estimates = std::move(found.report.estimates);
+  exact.report.correlations = std::move(found.report.correlations);
+  exact.report.interrupted = exact.report.interrupted || progress.Stopped();
+  return exact;
+}
+
 }  // namespace
+
+RefineEnd EndOfJunctions(const PreparedTwoJunctions& prepared, const TwoJunctionOptions& options,
+                         const Observer& observer) {
+  const TwoJunctionModel model(prepared.problem);
+  return EstimateParameters(ProblemOf(prepared, model, options),
+                            {options.search, Intervals::kNone, options.threads}, observer)
+      .end;
+}
 
 Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set, const TwoJunctionOptions& options,
                                             const Observer& observer) {
@@ -277,7 +325,30 @@ Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set, const TwoJuncti
   EstimatedParameters found =
       EstimateParameters(ProblemOf(prepared, model, options),
                          {options.search, options.intervals, options.threads}, observer);
+  PreparedTwoJunctions fitted = prepared;
   TwoJunctionReport report;
+  if (!found.end.p.empty() && !found.report.interrupted) {
+    report.test = TestJunctions(prepared, found.end);
+    const double stated = options.light_accuracy;
+    const double rmse_A = std::sqrt(found.end.mean_square);
+    if (IsMissed(report.test)) {
+      report.exchanged = FindExchangedLights(set, options, prepared, rmse_A, observer);
+    }
+    constexpr double kUnlikely = 0.05;
+    const ProgressReporter progress(observer, 0);
+    report.exact_lights_p =
+        PValueOfExactLights(prepared, report.test.noise_A, found.end, progress.stop());
+    const bool uncertain = std::isnan(stated) ? report.exact_lights_p < kUnlikely : stated > 0;
+    if (uncertain && !report.exchanged && report.test.noise_A > 0) {
+      const double noise_A = report.test.noise_A;
+      fitted = WithUsualLights(prepared, stated, noise_A);
+      const RefineEnd start = EndOfJunctions(fitted, options, observer);
+      fitted = WithUncertainLights(prepared, stated, noise_A, start, progress.stop());
+      found = WithLights(fitted, std::move(found), start, options, progress);
+      report.light_part = fitted.problem.light_sd;
+      report.test_of_rest = TestJunctions(fitted, found.end);
+    }
+  }
   static_cast<EstimateReport&>(report) = std::move(found.report);
   report.name = set.name;
   report.constants = options.constants;
@@ -286,8 +357,15 @@ Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set, const TwoJuncti
   report.non_default_options = NonDefaults(options, kTwoJunctionOptionTable);
   report.estimates = WithOpenEnds(std::move(report.estimates));
   report.decided_by = Deciding(prepared.problem, found.end.p, report.estimates);
-  report.curves = DescribeCurves(set, prepared, found.end.p);
+  report.curves = DescribeCurves(set, fitted, found.end);
+  if (report.light_part > 0) report.rmse.refined.solved_current_A = RmseOf(report.curves);
   report.warnings = WarningsOf(set, report);
+  for (std::string& one : TestWarnings(report)) report.warnings.push_back(std::move(one));
+  if (report.exchanged && report.usable) {
+    report.usable = false;
+    report.not_usable_because = fmt::format("the lights of {} and {} look exchanged",
+                                            report.exchanged->first, report.exchanged->second);
+  }
   return report;
 }
 

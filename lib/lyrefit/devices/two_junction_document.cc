@@ -54,14 +54,20 @@ Section TwoJunctionParameters(const TwoJunctionReport& report) {
   return section;
 }
 
+// A stated light, and what it is found to be if it is uncertain.
+std::string LightText(double share, double error) {
+  return error == 0 ? ShareText(share)
+                    : fmt::format("{} (found {:.4g})", ShareText(share), share * (1 + error));
+}
+
 Section CurveSection(const TwoJunctionReport& report) {
   block::Table table = {"lrrrrrrrr",
                         {{"curve", "light of 1", "light of 2", "limits", "Iph1 (A)", "Iph2 (A)",
                           "Voc (V)", "Pmp (W)", "RMSE (A)"}}};
   for (const TwoJunctionCurveReport& one : report.curves) {
     table.rows.push_back(
-        {one.curve.name, ShareText(one.light.top), ShareText(one.light.bottom),
-         std::to_string(one.limiting),
+        {one.curve.name, LightText(one.light.top, one.light_error[0]),
+         LightText(one.light.bottom, one.light_error[1]), std::to_string(one.limiting),
          Significant(one.parameters[JunctionPhotocurrent(0)], kJunctionSearchedDigits),
          Significant(one.parameters[JunctionPhotocurrent(1)], kJunctionSearchedDigits),
          Significant(one.simulated.open_circuit_voltage_V, kJunctionSearchedDigits),
@@ -69,6 +75,38 @@ Section CurveSection(const TwoJunctionReport& report) {
          Scientific(one.rmse_A, 3)});
   }
   return {"Curves (solved-current)", {table}};
+}
+
+// The test of the fit, and the errors of the lights.
+Section TestSection(const TwoJunctionReport& report) {
+  Section section = {"Test of the fit"};
+  const auto say = [&](const char* label, const JunctionTest& test) {
+    if (std::isnan(test.rmse_over_noise)) return;
+    AddField(
+        label,
+        fmt::format("residuals {} times the noise of {} A that neighbouring readings show (p {})",
+                    Significant(test.rmse_over_noise, 3), Significant(test.noise_A, 2),
+                    test.p_value < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", test.p_value)),
+        &section);
+  };
+  say(report.light_part > 0 ? "exact lights" : "test", report.test);
+  if (!(report.light_part > 0)) {
+    if (std::isnan(report.exact_lights_p)) return section;
+    AddField("lights",
+             fmt::format("taken as exact (p {:.2g} against errors of the stated ones); "
+                         "--light-accuracy 2% allows for errors that do not show",
+                         report.exact_lights_p),
+             &section);
+    return section;
+  }
+  say("with errors", report.test_of_rest);
+  AddField(
+      "lights",
+      fmt::format("stated ones but 1:1 have an error of {:.2g} % each; the table of curves has "
+                  "what they are found to be",
+                  100 * report.light_part),
+      &section);
+  return section;
 }
 
 Section RmseSection(const TwoJunctionReport& report) {
@@ -102,6 +140,7 @@ Document TwoJunctionDocument(const TwoJunctionReport& report) {
             &document.head);
   AddSections({{"", {block::Conclusion{document.verdict}}},
                TwoJunctionParameters(report),
+               TestSection(report),
                ListSection("What would decide", report.decided_by),
                RmseSection(report),
                WarningSection(report.warnings),
@@ -180,6 +219,10 @@ void to_json(Json& j, const StatedLight& light) {
   j = {{"top", light.top}, {"bottom", light.bottom}};
 }
 
+LYREFIT_JSON_FIELDS(JunctionTest, noise_A, rmse_over_noise, p_value)
+
+LYREFIT_JSON_FIELDS(ExchangedLights, first, second, rmse_A)
+
 void to_json(Json& j, const TwoJunctionCurveReport& one) {
   Json parameters = Json::object();
   const std::vector<ParameterInfo> infos = TwoJunctionInfos();
@@ -191,6 +234,7 @@ void to_json(Json& j, const TwoJunctionCurveReport& one) {
   j = {{"id", one.curve.name},
        {"curve", one.curve},
        {"light", one.light},
+       {"light_error", {{"top", one.light_error[0]}, {"bottom", one.light_error[1]}}},
        {"limiting", one.limiting},
        {"parameters", parameters},
        {"rmse", RmsePair{kUnknown, one.rmse_A}},
@@ -214,6 +258,11 @@ std::string TwoJunctionJson(const TwoJunctionReport& report) {
             {"interchangeable", report.interchangeable},
             {"parameters", parameters},
             {"decided_by", report.decided_by},
+            {"test", report.test},
+            {"test_of_rest", report.test_of_rest},
+            {"exact_lights_p", report.exact_lights_p},
+            {"light_part", report.light_part},
+            {"exchanged", report.exchanged},
             {"rmse", {{"searched", report.rmse.searched}, {"refined", report.rmse.refined}}},
             {"curves", report.curves}};
   j.update(CourseJson(report));

@@ -1,6 +1,7 @@
 // Experimental: may change in a minor version (data/stable).
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -32,6 +33,10 @@ std::string StatedLightText(const std::string& curve, const StatedLight& light);
 struct TwoJunctionOptions {
   // Stated lights, by the id of the curve. They replace those beside the data (DeviceNotes).
   std::map<std::string, StatedLight> lights;
+  // Standard deviation of each stated light, as a part of it; 0: exact. NaN: exact, unless the curves
+  // miss each other by more than noise; then found from them. Lights of 1:1 are exact: they define
+  // the reference.
+  double light_accuracy = kUnknown;
   std::map<std::string, std::pair<double, double>> bounds;  // ranges by symbol or name
   std::map<std::string, double> fixed;                      // values by symbol or name
   ConstantSet constants = ConstantSet::kCodata;
@@ -40,6 +45,10 @@ struct TwoJunctionOptions {
   int threads = 0;  // 0: all cores; never changes a result
 };
 
+// Reads a percentage, "2" or "2%". Error: not a percentage from 0 to 50.
+Expected<void> ReadLightAccuracy(const std::string& text, TwoJunctionOptions* options,
+                                 const TextReaders&);
+
 inline constexpr OptionRow<TwoJunctionOptions> kTwoJunctionOptionTable[] = {
     OptionRow<TwoJunctionOptions>("Two junctions"),
     {"light", "CURVE=TOP:BOTTOM",
@@ -47,6 +56,17 @@ inline constexpr OptionRow<TwoJunctionOptions> kTwoJunctionOptionTable[] = {
      "it is unknown; once for each curve",
      MapOption<ReadStatedLight, StatedLightText, &TwoJunctionOptions::lights>(),
      OptionTrait::kExperimental},
+    {"light-accuracy", "PERCENT",
+     "standard deviation of each stated light but 1:1, 2 or 2%; 0: exact (by default found from "
+     "the "
+     "curves where they disagree)",
+     OptionText<TwoJunctionOptions>{
+         ReadLightAccuracy,
+         [](const TwoJunctionOptions& options) -> std::vector<std::string> {
+           return {std::isnan(options.light_accuracy) ? std::string()
+                                                      : NumberText(100 * options.light_accuracy)};
+         }},
+     OptionTrait::kNoDefault | OptionTrait::kExperimental},
     {"bound", "P=LOWER:UPPER", "range of one parameter, Rs=0:0.5; once for each",
      RangesOption<&TwoJunctionOptions::bounds>(), OptionTrait::kNoFlag},
     {"fix", "P=VALUE", "holds a parameter, n2=2; once for each",

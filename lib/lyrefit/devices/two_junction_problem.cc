@@ -4,15 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 namespace {
+
+int UncertainLights(const TwoJunctionProblem& problem, const TwoJunctionCurve& curve) {
+  if (!(problem.light_sd > 0)) return 0;
+  return (curve.light[0].uncertain ? 1 : 0) + (curve.light[1].uncertain ? 1 : 0);
+}
+
+// The lights' errors of a curve from its local unknowns.
+LightErrors ErrorsOf(const TwoJunctionProblem& problem, const TwoJunctionCurve& curve,
+                     const double* local) {
+  LightErrors errors = {};
+  if (UncertainLights(problem, curve) == 0) return errors;
+  for (int j = 0; j < 2; ++j) errors[j] = curve.light[j].uncertain ? *local++ : 0;
+  return errors;
+}
 
 ModelShape ShapeOf(const TwoJunctionProblem& problem) {
   ModelShape shape;
@@ -21,6 +33,11 @@ ModelShape ShapeOf(const TwoJunctionProblem& problem) {
     readings.push_back(static_cast<int>(curve.voltage_V.size()));
   }
   SetBlocks(readings, &shape);
+  for (std::size_t c = 0; c < problem.curves.size(); ++c) {
+    const int unknown = UncertainLights(problem, problem.curves[c]);
+    shape.blocks[c].locals = unknown;
+    shape.blocks[c].residuals += unknown;
+  }
   shape.current_scale_A = problem.current_scale_A;
   shape.voltage_scale_V = problem.voltage_scale_V;
   shape.thermal_voltage_V = problem.thermal_voltage_V;
@@ -36,13 +53,25 @@ double PhotocurrentAt(const TwoJunctionProblem& problem, int photocurrent, const
 
 }  // namespace
 
+std::vector<LightErrors> LightErrorsOf(const TwoJunctionProblem& problem,
+                                       const std::vector<double>& local) {
+  std::vector<LightErrors> errors;
+  std::size_t next = 0;
+  for (const TwoJunctionCurve& curve : problem.curves) {
+    errors.push_back(ErrorsOf(problem, curve, local.data() + next));
+    next += static_cast<std::size_t>(UncertainLights(problem, curve));
+  }
+  return errors;
+}
+
 std::array<double, kTwoJunctionParameters> DeviceIn(const TwoJunctionProblem& problem, int curve,
-                                                    const double* p) {
+                                                    const double* p, const LightErrors& errors) {
   std::array<double, kTwoJunctionParameters> device{};
   std::copy_n(p, kTwoJunctionParameters, device.begin());
   for (int j = 0; j < 2; ++j) {
     const JunctionLight& light = problem.curves[curve].light[j];
-    device[JunctionPhotocurrent(j)] = light.share * PhotocurrentAt(problem, light.photocurrent, p);
+    device[JunctionPhotocurrent(j)] =
+        light.share * (1 + errors[j]) * PhotocurrentAt(problem, light.photocurrent, p);
   }
   return device;
 }
@@ -60,29 +89,41 @@ std::array<double, kTwoJunctionParameters> JunctionsAtReference(const TwoJunctio
 TwoJunctionModel::TwoJunctionModel(const TwoJunctionProblem& problem)
     : FitModel(ShapeOf(problem)), problem_(problem) {}
 
-bool TwoJunctionModel::Evaluate(int block, const double* p, const double* /*local*/,
-                                double* residuals, double* slopes, double* /*local_slopes*/) const {
+bool TwoJunctionModel::Evaluate(int block, const double* p, const double* local, double* residuals,
+                                double* slopes, double* local_slopes) const {
   const TwoJunctionCurve& curve = problem_.curves[block];
-  const int size = shape().size();
-  const auto device = DeviceIn(problem_, block, p);
+  const int size = shape().size(), locals = shape().blocks[block].locals;
+  const LightErrors errors = ErrorsOf(problem_, curve, local);
+  const auto device = DeviceIn(problem_, block, p, errors);
   const int points = static_cast<int>(curve.voltage_V.size());
-  if (slopes != nullptr) std::fill_n(slopes, points * size, 0.0);
+  const bool sloped = slopes != nullptr || local_slopes != nullptr;
+  if (slopes != nullptr) std::fill_n(slopes, shape().blocks[block].residuals * size, 0.0);
+  for (int k = 0; k < locals; ++k) {
+    residuals[points + k] = problem_.noise_A * local[k] / problem_.light_sd;
+    if (local_slopes == nullptr) continue;
+    local_slopes[(points + k) * locals + k] = problem_.noise_A / problem_.light_sd;
+  }
   double by_device[kTwoJunctionParameters];
   double start = kUnknown;
   for (int k = 0; k < points; ++k) {
     const double current =
         TwoJunctionCurrent(problem_.thermal_voltage_V, device.data(), curve.voltage_V[k],
-                           slopes != nullptr ? by_device : nullptr, start);
+                           sloped ? by_device : nullptr, start);
     start = current;
     if (!std::isfinite(current)) return false;
     residuals[k] = current - curve.current_A[k];
+    for (int j = 0, local_at = 0; j < 2 && local_slopes != nullptr && locals > 0; ++j) {
+      if (!curve.light[j].uncertain) continue;
+      const int i = JunctionPhotocurrent(j);
+      local_slopes[k * locals + local_at++] = by_device[i] * device[i] / (1 + errors[j]);
+    }
     if (slopes == nullptr) continue;
     double* const row = slopes + static_cast<std::ptrdiff_t>(k) * size;
     for (int i = 0; i < kTwoJunctionParameters; ++i) row[i] = by_device[i];
     row[JunctionPhotocurrent(0)] = row[JunctionPhotocurrent(1)] = 0;
     for (int j = 0; j < 2; ++j) {
       const JunctionLight& light = curve.light[j];
-      const double slope = light.share * by_device[JunctionPhotocurrent(j)];
+      const double slope = light.share * (1 + errors[j]) * by_device[JunctionPhotocurrent(j)];
       if (problem_.ordered && light.photocurrent == JunctionPhotocurrent(1)) {
         row[JunctionPhotocurrent(0)] += slope * (1 + p[light.photocurrent]);
         row[light.photocurrent] += slope * p[JunctionPhotocurrent(0)];
@@ -249,9 +290,11 @@ void AddLights(const CurveSet& set, PreparedTwoJunctions* prepared) {
     for (int j = 0; j < 2; ++j) {
       const double share = j == 0 ? prepared->light[c].top : prepared->light[c].bottom;
       JunctionLight& light = problem->curves[c].light[j];
-      light = {JunctionPhotocurrent(j), share};
+      light = {JunctionPhotocurrent(j), share, false};
+      const bool reference = prepared->light[c].top == 1 && prepared->light[c].bottom == 1;
+      light.uncertain = share > 0 && !reference;
       if (!std::isnan(share)) continue;
-      light = {static_cast<int>(problem->parameters.size()), 1};
+      light = {static_cast<int>(problem->parameters.size()), 1, false};
       ParameterInfo info = TwoJunctionInfos()[JunctionPhotocurrent(j)];
       const std::string& id = set.curves[c].name;
       info.symbol += "[" + id + "]";
@@ -298,33 +341,6 @@ Expected<void> ApplyRanges(const TwoJunctionOptions& options, TwoJunctionProblem
 }
 
 }  // namespace
-
-Expected<std::pair<std::string, StatedLight>> ReadStatedLight(const std::string& text) {
-  const auto misread = [&] {
-    return Fail("expected CURVE=TOP:BOTTOM such as red=1:0.9 or red=1:?, found '" + text + "'");
-  };
-  const std::size_t equals = text.rfind('='), colon = text.rfind(':');
-  if (equals == std::string::npos || equals == 0 || colon == std::string::npos || colon < equals) {
-    return misread();
-  }
-  StatedLight light;
-  double* const shares[] = {&light.top, &light.bottom};
-  const std::string parts[] = {text.substr(equals + 1, colon - equals - 1), text.substr(colon + 1)};
-  for (int j = 0; j < 2; ++j) {
-    if (parts[j] == "?") continue;
-    const std::optional<double> share = ParseNumber(parts[j]);
-    if (!share) return misread();
-    *shares[j] = *share;
-  }
-  return std::pair(text.substr(0, equals), light);
-}
-
-std::string StatedLightText(const std::string& curve, const StatedLight& light) {
-  const auto share = [](double value) {
-    return std::isnan(value) ? std::string("?") : fmt::format("{:g}", value);
-  };
-  return fmt::format("{}={}:{}", curve, share(light.top), share(light.bottom));
-}
 
 Expected<PreparedTwoJunctions> PrepareTwoJunctions(const CurveSet& set,
                                                    const TwoJunctionOptions& options) {

@@ -12,10 +12,12 @@
 
 namespace lyrefit {
 
-// Photocurrent of one junction in one curve: a parameter times the stated share of its light.
+// Photocurrent of one junction in one curve: a parameter times the stated share of its light, times
+// 1 + a local unknown if the share is uncertain.
 struct JunctionLight {
   int photocurrent = 0;  // position of the parameter
   double share = 1;
+  bool uncertain = false;
 };
 
 struct TwoJunctionCurve {
@@ -36,21 +38,32 @@ struct TwoJunctionProblem {
   // JunctionPhotocurrent(1) is then the excess x >= 0 in Iph2 = Iph1 (1 + x), so that junction 1 is
   // the one with the lower photocurrent.
   bool ordered = false;
+  // Standard deviation of uncertain shares, relative; 0: they are exact. Their priors are residuals
+  // of `noise_A` at one standard deviation.
+  double light_sd = 0;
+  double noise_A = 1;
 
   // Scales of the coordinates.
   double current_scale_A = 1;
   double voltage_scale_V = 1;  // of one junction
 };
 
+// Relative errors of the lights of one curve.
+using LightErrors = std::array<double, 2>;
+// Those of each curve, from the local unknowns of a point.
+std::vector<LightErrors> LightErrorsOf(const TwoJunctionProblem& problem,
+                                       const std::vector<double>& local);
+
 // Parameters of the device in the light of one curve, in the order of TwoJunctionInfos.
 std::array<double, kTwoJunctionParameters> DeviceIn(const TwoJunctionProblem& problem, int curve,
-                                                    const double* p);
+                                                    const double* p, const LightErrors& light = {});
 
 // Parameters of the device under the reference light.
 std::array<double, kTwoJunctionParameters> JunctionsAtReference(const TwoJunctionProblem& problem,
                                                                 const double* p);
 
-// The problem as a model: one block for each curve, solved-current residuals, no local unknowns.
+// The problem as a model: one block for each curve, solved-current residuals, then those of the
+// priors of uncertain lights, which are local unknowns.
 class TwoJunctionModel : public FitModel {
  public:
   // Keeps a reference to the problem.
@@ -71,6 +84,7 @@ struct PreparedTwoJunctions {
   double voc_V = 0;                // largest of the curves
   int free_parameters = 0;
   int readings = 0;
+  double light_degrees = kInfinity;  // of freedom of `problem.light_sd`
 };
 
 // Errors: those of FitTwoJunctions.

@@ -227,7 +227,9 @@ Section ShortList(const std::string& title, std::vector<std::string> sentences) 
 void AddWithoutOutliers(const FamilyReport& report, const WithoutOutliers& without,
                         Section* section) {
   const char* const them = without.ids.size() == 1 ? "it" : "them";
-  AddSentence(fmt::format("Without {}: RMSE {}.", them, BothLabelled(without.rmse)), section);
+  if (without.cells.empty()) {
+    AddSentence(fmt::format("Without {}: RMSE {}.", them, BothLabelled(without.rmse)), section);
+  }
   std::string values;
   for (std::size_t i = 0; i < without.shared.size() && i < report.estimates.size(); ++i) {
     const ParameterInfo& info = report.estimates[i].info;
@@ -245,19 +247,31 @@ Section OutlierSection(const FamilyReport& report) {
   for (const FamilyCurve& curve : report.curves) {
     if (!curve.outlier) continue;
     ids.push_back(curve.id);
+    if (report.key_points) continue;
     sentences.push_back(fmt::format(
         "curve {} looks like another device: solved-current RMSE {} A under the shared parameters, "
         "{} A on its own",
         curve.id, Scientific(curve.rmse.solved_current_A, 3),
         Scientific(curve.individual_rmse.solved_current_A, 3)));
   }
-  Section section = ShortList("Odd curves", std::move(sentences));
+  if (report.key_points && report.without_outliers) {
+    for (const OutlierCell& cell : report.without_outliers->cells) {
+      sentences.push_back(fmt::format("{} of {}: measured {} {}, expected {} {}", cell.point,
+                                      cell.id, Significant(cell.measured, 4), cell.unit,
+                                      Significant(cell.expected, 4), cell.unit));
+    }
+  }
+  Section section =
+      ShortList(report.key_points ? "Wrong values" : "Odd curves", std::move(sentences));
   if (ids.empty()) return section;
   if (report.without_outliers) {
     AddWithoutOutliers(report, *report.without_outliers, &section);
     ids = report.without_outliers->ids;
   }
-  AddSentence(fmt::format("To fit without: --leave-out {}", fmt::join(ids, ",")), &section);
+  AddSentence(fmt::format(report.key_points ? "To fit without the conditions: --leave-out '{}'"
+                                            : "To fit without: --leave-out {}",
+                          fmt::join(ids, ",")),
+              &section);
   return section;
 }
 

@@ -42,8 +42,10 @@ std::string FamilyVerdict(const FamilyReport& report) {
               : fmt::format(": solved-current RMSE {} A{}", Scientific(rmse_A, 3),
                             PartOfIsc(rmse_A, report.reference.short_circuit_current_A));
   if (outliers > 0) {
-    text += fmt::format("; {} look{} like another device", Plural(outliers, "curve"),
-                        outliers == 1 ? "s" : "");
+    text += report.key_points
+                ? fmt::format("; a value of {} looks wrong", Plural(outliers, "condition"))
+                : fmt::format("; {} look{} like another device", Plural(outliers, "curve"),
+                              outliers == 1 ? "s" : "");
   }
   return FullSentence(text);
 }

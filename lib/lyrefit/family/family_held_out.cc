@@ -11,6 +11,7 @@
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
+#include "lyrefit/family/key_point_errors.h"
 #include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
@@ -45,30 +46,67 @@ std::vector<Tested> Predict(const FamilyProblem& family, const FamilyOptions& op
   return tested;
 }
 
-// Pmp of curves that `refit` did not see, with the interval of a measurement.
+// Errors of key points as the fitted curves of a problem show them; the others follow in it.
+struct ForecastErrors {
+  std::optional<KeyPointRowsOf> rows;
+  std::optional<KeyPointErrorSizes> sizes;
+};
+
+ForecastErrors ErrorsOfForecasts(const JointProblem& all, const JointEnd& refit, std::size_t fitted,
+                                 double noise, const KeyPointErrors& stated) {
+  ForecastErrors errors;
+  std::vector<bool> used(all.curves.size(), false);
+  std::fill_n(used.begin(), fitted, true);
+  errors.rows = RowsOfKeyPoints(all, {refit.point.shared, {}}, refit.active, used);
+  if (errors.rows && noise > 0) errors.sizes.emplace(*errors.rows, noise, stated);
+  return errors;
+}
+
+// Half of the 95 % interval of a measured Pmp less its forecast. `gradient`: of the forecast;
+// `curve`: position in the problem of the errors; `own_W`: error of Pmp per unit of its residual.
+double HalfWidthOf(const ForecastErrors& errors, const Eigen::VectorXd& gradient, std::size_t curve,
+                   double own_W) {
+  const KeyPointRowsOf& rows = *errors.rows;
+  Eigen::VectorXd weight = TransposedTimes(rows.influence, gradient);
+  for (int r = rows.first[curve]; r < rows.first[curve + 1]; ++r) {
+    if (rows.kind[r] == kPmpRow) weight[r] = -own_W;
+  }
+  return errors.sizes->HalfWidth95(rows, weight);
+}
+
+// Pmp of curves `left` that `refit` on the curves `kept` did not see, with the interval of a
+// measurement.
 std::vector<std::pair<int, Interval>> PredictPower(const FamilyProblem& family,
+                                                   const FamilyOptions& options,
                                                    const JointProblem& problem,
-                                                   const JointEnd& refit,
-                                                   const std::vector<int>& curves) {
+                                                   const JointEnd& refit, std::vector<int> kept,
+                                                   const std::vector<int>& left) {
   const double degrees = JointDegrees(problem, family.free_parameters, 0);
   const double variance = refit.squares / degrees;
   const double t = StudentT95(static_cast<int>(degrees));
   const JointSpread spread = FindJointSpread(problem, refit, variance);
+  const std::size_t fitted = kept.size();
+  kept.insert(kept.end(), left.begin(), left.end());
+  const ForecastErrors errors =
+      ErrorsOfForecasts(JointProblemOn(family, options, kept), refit, fitted, std::sqrt(variance),
+                        options.key_point_errors);
   std::vector<std::pair<int, Interval>> predicted;
-  for (const int c : curves) {
-    const JointCurve& curve = family.curves.members[c].joint;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    const JointCurve& curve = family.curves.members[left[k]].joint;
     const auto power = [&](const std::vector<double>& shared) {
       const TranslatedDevice at = TranslateTo(
           problem.translation, shared, curve.irradiance_W_m2 + shared[problem.irradiance_offset()],
           curve.temperature_K + shared[problem.temperature_offset()]);
       return ModelKeyPoints(at.device, at.parameters.data()).max_power_W;
     };
-    const Interval model =
-        DerivedInterval(spread, refit.active, problem.shared(), t, refit.point.shared, power);
-    const double own = std::sqrt(variance) / problem.key_point_scale_A *
-                       curve.key_points->error[kPmpRow] * std::fabs(model.value);
-    predicted.push_back(
-        {c, SymmetricInterval(model.value, std::hypot(model.standard_error, own), t)});
+    const double own = curve.key_points->error[kPmpRow] * std::fabs(power(refit.point.shared)) /
+                       problem.key_point_scale_A;
+    const auto standard_error = [&](const Eigen::VectorXd& gradient) {
+      if (errors.sizes) return HalfWidthOf(errors, gradient, fitted + k, own) / t;
+      return std::sqrt(gradient.dot(spread.covariance * gradient) + variance * own * own);
+    };
+    predicted.push_back({left[k], DerivedInterval(spread, refit.active, problem.shared(), t,
+                                                  refit.point.shared, power, standard_error)});
   }
   return predicted;
 }
@@ -139,7 +177,9 @@ std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& fam
     quick.stop = progress.stop();
     const JointEnd refit = RefineJointly(rest, start, quick);
     parts[f] = Predict(family, options, family.translation, refit.point.shared, left);
-    if (family.curves.key_points) powers[f] = PredictPower(family, rest, refit, left);
+    if (family.curves.key_points) {
+      powers[f] = PredictPower(family, options, rest, refit, kept, left);
+    }
     progress.Step();
   });
   if (progress.Stopped()) return {};
@@ -188,7 +228,8 @@ std::optional<FamilyTests> TestFamily(const PreparedFamily& prepared, const Refi
   if (!members.held_out.empty()) {
     held_out = TestOn(set, family, options, shared, tested);
     if (members.key_points) {
-      tests.held_out_power_W = PredictPower(family, refined.problem, refined.end, tested);
+      tests.held_out_power_W =
+          PredictPower(family, options, refined.problem, refined.end, members.fitted, tested);
     }
   } else if (options.folds > 0 && members.fitted.size() >= 4) {
     std::optional<HeldOut> folds = TestByFolds(set, family, options, refined.problem, refined.end,

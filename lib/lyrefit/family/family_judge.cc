@@ -8,6 +8,7 @@
 #include "lyrefit/estimate/fit/estimate_parameters.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/other_optima.h"
+#include "lyrefit/family/key_point_errors.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
@@ -39,6 +40,15 @@ struct Judged {
   double t = 2;         // Student's, for 95 %
   JointSpread spread;
   std::vector<FitPoint> local_optima;  // other optima that the data allow
+  std::vector<double> stretch = {};    // of the standard errors by errors that conditions share
+  std::optional<KeyPointRowsOf> rows = {};  // of key points with errors that show
+  std::optional<KeyPointErrorSizes> sizes = {};
+
+  // Standard error of a function of this gradient; t of them are half of its 95 % interval.
+  double StandardError(const Eigen::VectorXd& gradient) const {
+    const Eigen::VectorXd weight = TransposedTimes(rows->influence, gradient);
+    return sizes->HalfWidth95(*rows, weight) / t;
+  }
 };
 
 // Other optima of a fit with effects whose sum of squares rises by less than t^2 variances, in
@@ -59,6 +69,28 @@ std::vector<FitPoint> FindMoreOptima(const ReportedFit& fit, const ProgressRepor
   return local_optima;
 }
 
+// Takes the errors of key points as their residuals show them, with those that conditions share.
+void TakeErrorsOfKeyPoints(Judged* judged) {
+  constexpr double kExactPart = 1e-6;  // of the errors that weigh: rounding
+  const ReportedFit& fit = judged->fit;
+  const double noise = std::sqrt(judged->variance);
+  if (!judged->options.intervals || !fit.family.curves.key_points ||
+      !(noise > kExactPart * fit.problem.key_point_scale_A)) {
+    return;
+  }
+  judged->rows = RowsOfKeyPoints(fit.problem, fit.end.point, fit.end.active);
+  if (!judged->rows) return;
+  judged->sizes.emplace(*judged->rows, noise, judged->options.key_point_errors);
+  Spread& spread = judged->spread;
+  const std::vector<double> own = spread.standard_error;
+  const auto count = static_cast<Eigen::Index>(own.size());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    double& error = spread.standard_error[i];
+    if (std::isfinite(error)) error = judged->StandardError(Eigen::VectorXd::Unit(count, i));
+  }
+  judged->stretch = StretchOf(spread.standard_error, own);
+}
+
 Judged SpreadOf(const ReportedFit& fit, const FamilyOptions& options,
                 const ProgressReporter& progress) {
   Judged judged{fit, options, 0, 1, 2, {}, {}};
@@ -72,6 +104,7 @@ Judged SpreadOf(const ReportedFit& fit, const FamilyOptions& options,
   judged.degrees = static_cast<int>(degrees);
   judged.t = StudentT95(judged.degrees);
   judged.spread = FindJointSpread(fit.problem, fit.model, fit.best, judged.variance);
+  TakeErrorsOfKeyPoints(&judged);
   return judged;
 }
 
@@ -95,7 +128,7 @@ EstimateReport EstimatesOf(const Judged& judged, const std::vector<double>& sear
   problem.effects = SpanOf(fit.family.translation);
   problem.further = {"dG", "dT"};
   problem.errors = [&](const RefineEnd&) {
-    return EstimateErrors{judged.variance, judged.degrees, judged.spread};
+    return EstimateErrors{judged.variance, judged.degrees, judged.spread, judged.stretch};
   };
   problem.several_optima = !judged.local_optima.empty();
   problem.refits = HowToRefine({});
@@ -109,8 +142,14 @@ EstimateReport EstimatesOf(const Judged& judged, const std::vector<double>& sear
 
 Interval Derived(const Judged& judged, const std::vector<double>& refined,
                  const std::function<double(const std::vector<double>&)>& value) {
+  std::function<double(const Eigen::VectorXd&)> standard_error;
+  if (judged.sizes) {
+    standard_error = [&](const Eigen::VectorXd& gradient) {
+      return judged.StandardError(gradient);
+    };
+  }
   return DerivedInterval(judged.spread, judged.fit.end.active, judged.fit.family.translation.size(),
-                         judged.t, refined, value);
+                         judged.t, refined, value, standard_error);
 }
 
 // Coefficients of the short-circuit current, the open-circuit voltage and the maximum power.
@@ -160,7 +199,8 @@ std::vector<CurveOffsets> OffsetsOf(const Judged& judged) {
 
 Interval DerivedInterval(const Spread& spread, const std::vector<bool>& active, int size, double t,
                          const std::vector<double>& shared,
-                         const std::function<double(const std::vector<double>&)>& value) {
+                         const std::function<double(const std::vector<double>&)>& value,
+                         const std::function<double(const Eigen::VectorXd&)>& standard_error) {
   constexpr double kOpen = 1e-3;  // smaller relative changes are rounding errors
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
   for (int i = 0; i < size; ++i) {
@@ -181,6 +221,7 @@ Interval DerivedInterval(const Spread& spread, const std::vector<bool>& active, 
     const double least = std::max(parts.cwiseAbs().sum(), std::fabs(now));
     if (std::fabs(parts.sum()) > kOpen * least) return SymmetricInterval(now, kUnknown, t);
   }
+  if (standard_error) return SymmetricInterval(now, standard_error(gradient), t);
   const double variance = gradient.dot(spread.covariance * gradient);
   return SymmetricInterval(now, std::sqrt(std::max(variance, 0.0)), t);
 }
@@ -221,6 +262,10 @@ JudgedEnd JudgeFamily(const ReportedFit& fit, const FamilyOptions& options,
   family.estimate = EstimatesOf(judged, ReportedShared(at, searched), progress);
   if (options.intervals) family.coefficients = Coefficients(judged, family.refined);
   DescribeSensors(judged, &family);
+  if (judged.sizes) {
+    family.key_point_errors =
+        FoundErrorsOf(*judged.sizes, options.key_point_errors, fit.problem.key_point_scale_A);
+  }
   family.reference = AtReference(at, family.refined);
   family.offsets = OffsetsOf(judged);
   return family;

@@ -33,8 +33,9 @@ struct CurveOffsets {
 };
 
 struct JudgedEnd : JudgedFamily {
-  EstimateReport estimate;            // of the shared parameters
-  std::vector<CurveOffsets> offsets;  // of the fitted curves
+  EstimateReport estimate;                         // of the shared parameters
+  std::vector<CurveOffsets> offsets;               // of the fitted curves
+  std::optional<KeyPointErrors> key_point_errors;  // as the residuals show them
 };
 
 // Last stage of a family fit: parameters, intervals and figures from the end of a joint fit.
@@ -46,10 +47,13 @@ JudgedEnd JudgeFamily(const ReportedFit& fit, const FamilyOptions& options,
 // Value, standard error and symmetric interval of a function of the shared parameters, from a
 // gradient by central differences. `active`: at their bounds; `size`: number of parameters that the
 // function takes. The interval is unknown if the function changes along a direction that the data
-// do not determine.
-Interval DerivedInterval(const Spread& spread, const std::vector<bool>& active, int size, double t,
-                         const std::vector<double>& shared,
-                         const std::function<double(const std::vector<double>&)>& value);
+// do not determine. `standard_error`: of a function by its gradient; empty: by the covariance of
+// the spread.
+Interval DerivedInterval(
+    const Spread& spread, const std::vector<bool>& active, int size, double t,
+    const std::vector<double>& shared,
+    const std::function<double(const std::vector<double>&)>& value,
+    const std::function<double(const Eigen::VectorXd&)>& standard_error = nullptr);
 
 // The interval value -+ t x standard error on the scale of `kind`, clipped to the bounds. Its ends
 // are NaN without a finite standard error.

@@ -85,16 +85,15 @@ int UsualCells(const CurveSet& set) {
 // Leaves out the curves that cannot be fitted. `refusal` receives the first error of implausible
 // readings.
 void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
-                     std::vector<FamilyMember>* members, std::optional<Error>* refusal) {
+                     const std::set<std::string>& unwanted, std::vector<FamilyMember>* members,
+                     std::optional<Error>* refusal) {
   const int cells = UsualCells(set);
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
     const IvCurve& curve = set.curves[c];
     FamilyMember& member = (*members)[c];
-    const bool unwanted = std::find(options.leave_out.begin(), options.leave_out.end(),
-                                    curve.name) != options.leave_out.end();
     const double irradiance = curve.conditions.irradiance_W_m2;
     const double isc = member.short_circuit_current_A;
-    if (unwanted) {
+    if (unwanted.count(curve.name) > 0) {
       LeaveOut("left out as asked", &member);
     } else if (curve.conditions.cells_in_series != cells) {
       LeaveOut(fmt::format("has {} cells in series, the others {}: another device",
@@ -239,18 +238,27 @@ void AddSensorUnknowns(const FamilyOptions& options, std::vector<FamilyMember>* 
   }
 }
 
-Expected<void> CheckIds(const CurveSet& set, const FamilyOptions& options) {
-  std::set<std::string> ids;
+// The ids to leave out; those of the set may hold commas, at which the option's text was split.
+// Errors: two curves of one id, an id that the set lacks.
+Expected<std::set<std::string>> IdsToLeaveOut(const CurveSet& set, const FamilyOptions& options) {
+  std::set<std::string> ids, unwanted;
   for (const IvCurve& curve : set.curves) {
     if (ids.insert(curve.name).second) continue;
     return Fail(
         fmt::format("two curves are named {}: every curve needs an id of its own", curve.name),
         set.source);
   }
-  for (const std::string& id : options.leave_out) {
-    if (ids.count(id) == 0) return Fail(fmt::format("leave-out: the set has no curve {}", id));
+  const std::vector<std::string>& parts = options.leave_out;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    std::string id = parts[k];
+    std::size_t last = k;
+    while (ids.count(id) == 0 && last + 1 < parts.size()) id += "," + parts[++last];
+    if (ids.count(id) == 0)
+      return Fail(fmt::format("leave-out: the set has no curve {}", parts[k]));
+    unwanted.insert(id);
+    k = last;
   }
-  return {};
+  return unwanted;
 }
 
 }  // namespace
@@ -278,7 +286,7 @@ void WeighMembers(FamilyWeights weights, FamilyMembers* members) {
 }
 
 Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptions& options) {
-  TRY(CheckIds(set, options));
+  TRY(const std::set<std::string> unwanted, IdsToLeaveOut(set, options));
   FamilyMembers result;
   for (const IvCurve& curve : set.curves) {
     if (auto valid = Validate(curve); !valid) {
@@ -295,7 +303,7 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
     result.members.push_back(std::move(member));
   }
   std::optional<Error> refusal;
-  LeaveOutMisfits(set, options, &result.members, &refusal);
+  LeaveOutMisfits(set, options, unwanted, &result.members, &refusal);
   AddSensorUnknowns(options, &result.members);
   GuessIrradiances(&result.members, &result.notes);
   TRY(GuessTemperatures(&result.members, &result.notes));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "lyrefit/base/number_text.h"
@@ -36,12 +37,18 @@ namespace {
 struct KeyPointErrorRow {
   const char* name;
   double KeyPointErrors::*part;
+  bool shared = false;  // by conditions: may be 0, or not stated
+  double unit = 0.01;
+  const char* unit_text = "%";
+  double most = 50;
 };
 constexpr KeyPointErrorRow kKeyPointErrorRows[] = {
     {"isc", &KeyPointErrors::short_circuit_current},
     {"voc", &KeyPointErrors::open_circuit_voltage},
     {"vmp", &KeyPointErrors::max_power_voltage},
     {"pmp", &KeyPointErrors::max_power},
+    {"temperature", &KeyPointErrors::temperature_K, true, 1, "K", 20},
+    {"light", &KeyPointErrors::irradiance, true},
 };
 
 }  // namespace
@@ -56,18 +63,20 @@ Expected<void> ReadKeyPointErrors(const std::string& text, KeyPointErrors* error
                      [&](const KeyPointErrorRow& known) { return name == known.name; });
     if (equals == std::string::npos || row == std::end(kKeyPointErrorRows)) {
       return Fail(
-          fmt::format("key-point-errors: expected isc, voc, vmp or pmp and a percentage, as in "
-                      "voc=0.3%, found {}",
+          fmt::format("key-point-errors: expected isc, voc, vmp, pmp or light and a percentage, as "
+                      "in voc=0.3%, or temperature=0.3K, found {}",
                       part));
     }
     std::string value = part.substr(equals + 1);
-    if (!value.empty() && value.back() == '%') value.pop_back();
-    const auto percent = ParseNumber(value);
-    if (!percent || !(*percent > 0) || !(*percent <= 50)) {
-      return Fail(fmt::format("key-point-errors: expected {} above 0 and at most 50 %, found {}",
-                              name, value));
+    if (!value.empty() && value.back() == row->unit_text[0]) value.pop_back();
+    const auto number = ParseNumber(value);
+    const bool enough = number && (row->shared ? *number >= 0 : *number > 0);
+    if (!enough || !(*number <= row->most)) {
+      return Fail(fmt::format("key-point-errors: expected {} {} and at most {:g} {}, found {}",
+                              name, row->shared ? "of at least 0" : "above 0", row->most,
+                              row->unit_text, value));
     }
-    errors->*row->part = *percent / 100;
+    errors->*row->part = *number * row->unit;
   }
   return {};
 }
@@ -75,7 +84,10 @@ Expected<void> ReadKeyPointErrors(const std::string& text, KeyPointErrors* error
 std::string KeyPointErrorsText(const KeyPointErrors& errors) {
   std::string text;
   for (const KeyPointErrorRow& row : kKeyPointErrorRows) {
-    text += fmt::format("{}{}={:g}%", text.empty() ? "" : ",", row.name, 100 * errors.*row.part);
+    const double part = errors.*row.part;
+    if (std::isnan(part)) continue;
+    text += fmt::format("{}{}={:.3g}{}", text.empty() ? "" : ",", row.name, part / row.unit,
+                        row.unit_text);
   }
   return text;
 }

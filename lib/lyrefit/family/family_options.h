@@ -54,18 +54,23 @@ struct EnumTable<FamilyResiduals> {
 
 // Relative standard deviations of measured key points, from condition to condition: what all
 // conditions share (the lamp, the temperature sensor) does not count. Only their ratios weigh; the
-// residuals give the scale. Defaults: typical of indoor matrices by IEC 61853-1.
+// residuals give the sizes. Defaults: typical of indoor matrices by IEC 61853-1.
 struct KeyPointErrors {
   double short_circuit_current = 0.004;  // of Isc
   double open_circuit_voltage = 0.003;   // of Voc
   double max_power_voltage = 0.006;      // of Vmp; the largest: power is flat there
   double max_power = 0.003;              // of Pmp
+  // Errors common to all conditions of one set temperature, and relative ones common to one level of
+  // light. They widen intervals and do not weigh. NaN: found from the residuals.
+  double temperature_K = kUnknown;
+  double irradiance = kUnknown;
 };
 
-// Reads "isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%"; what is not named keeps its value. Errors: an
-// unknown name, or a part that is not above 0 and at most 50 %.
+// Reads "isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%,temperature=0.3K,light=0.3%"; what is not named keeps
+// its value. Errors: an unknown name, a part that is not above 0 and at most 50 %; a shared error that
+// is not from 0 to 20 K or 50 %.
 Expected<void> ReadKeyPointErrors(const std::string& text, KeyPointErrors* errors);
-// "isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%"
+// As ReadKeyPointErrors reads it; shared errors only where stated.
 std::string KeyPointErrorsText(const KeyPointErrors& errors);
 
 // Options of FitFamily: the law, the known accuracy of the sensors, and the tests of the result.
@@ -160,7 +165,11 @@ inline constexpr OptionRow<FamilyOptions> kFamilyOptionTable[] = {
      "stated)",
      EnumOption<&FamilyOptions::residuals>()},
     {"key-point-errors", "LIST",
-     "how well key points are measured against each other, isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%",
+     "how well key points are measured against each other, isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%, "
+     "and "
+     "what conditions of one set temperature or of one light share, temperature=0.3K,light=0.3% "
+     "(by "
+     "default found from the residuals)",
      OptionText<FamilyOptions>{
          [](const std::string& text, FamilyOptions* options, const TextReaders&) {
            return ReadKeyPointErrors(text, &options->key_point_errors);

@@ -81,7 +81,7 @@ void SetRanges(int junctions, FamilyProblem* family) {
         SearchScale::kLog);
   range(at.alpha_sc, -0.02 * current, 0.02 * current, -5e-4 * current, 1.5e-3 * current);
   range(at.adjust, -1000, 1000, -30, 30);
-  range(at.bandgap, 0.3, 2.5, 0.9, 1.5);
+  range(at.bandgap, 0.3, 2.5 * junctions, 0.9, 1.5);
   range(at.bandgap_slope, -0.01, 0.01, -5e-4, 0);
   range(at.n_slope, -0.05, 0.05, -3e-3, 3e-3);
   range(at.resistance_shunt_dark, 0, kInfinity, resistance, 4000 * resistance, SearchScale::kLog);

@@ -84,12 +84,13 @@ struct FamilyCurve {
   double isc_excess = kUnknown;  // relative
   double voc_excess_V = kUnknown;
   std::optional<KeyPointFit> key_points;  // if the residuals are those of key points
-  bool outlier = false;                   // the curve does not belong to the device of the others
+  bool outlier = false;  // does not belong to the device of the others, or has a wrong key point
 };
 
 // Root mean squares of model / measured - 1 over the fitted curves of a joint fit of key points.
 struct KeyPointSummary {
   KeyPointErrors errors;                    // that weighed the residuals
+  std::optional<KeyPointErrors> found;      // as the residuals show them; none: no intervals
   double scale = 0;                         // residual standard deviation in units of these errors
   double short_circuit_current = kUnknown;  // of Isc
   double open_circuit_voltage = kUnknown;   // of Voc
@@ -152,9 +153,20 @@ struct FamilyCandidate {
   bool chosen = false;      // the report is of this law
 };
 
-// The joint fit without the curves that appear to belong to another device.
+// A stated key point that the others contradict.
+struct OutlierCell {
+  std::string id;     // of the condition
+  std::string point;  // "Isc", "Voc", "Imp" or "Vmp"
+  std::string unit;
+  double measured = kUnknown;
+  double expected = kUnknown;  // by the fit without it
+};
+
+// The joint fit without the curves that appear to belong to another device, or of key points
+// without the cells that look wrong.
 struct WithoutOutliers {
-  std::vector<std::string> ids;  // the curves that were left out
+  std::vector<std::string> ids;    // the curves that were left out, or that have such a cell
+  std::vector<OutlierCell> cells;  // of key points
   RmsePair rmse;
   std::vector<double> shared;  // refitted, in the translation's order
 };

@@ -113,8 +113,23 @@ void WarnOfMisfit(const FamilyReport& report, const Misfit& misfit,
   }
 }
 
+// "Imp of 800 W/m2, 25 C looks wrong: ..."
+std::string CellWords(const OutlierCell& cell) {
+  return fmt::format(
+      "{} of {} looks wrong: {:.4g} {} is {:+.1f} % off the {:.4g} {} of a fit without it",
+      cell.point, cell.id, cell.measured, cell.unit, 100 * (cell.measured / cell.expected - 1),
+      cell.expected, cell.unit);
+}
+
 void WarnOfOutlierCurves(const FamilyReport& report, std::vector<std::string>* warnings) {
   if (!report.without_outliers) return;
+  for (const OutlierCell& cell : report.without_outliers->cells) {
+    warnings->push_back(fmt::format(
+        "{}. The parameters of this report include it. Correct the cell, empty it, or leave the "
+        "condition out: --leave-out '{}'",
+        CellWords(cell), cell.id));
+  }
+  if (report.key_points) return;
   for (const std::string& id : report.without_outliers->ids) {
     warnings->push_back(fmt::format(
         "Curve {} does not belong to the device of the others, or its irradiance or temperature is "

@@ -1,5 +1,6 @@
 #include "lyrefit/family/fit_family.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "lyrefit/family/family_errors.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/joint.h"
+#include "lyrefit/family/key_point_errors.h"
 #include "lyrefit/family/refine_family.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/kernel.h"
@@ -88,14 +90,45 @@ struct OutlierFit {
   bool stopped = false;
 };
 
+// As FitWithoutOutliers, of key points.
+OutlierFit FitWithoutWrongCells(const RefinedFamily& refined, const CurveSet& set,
+                                const ProgressReporter& progress) {
+  constexpr struct {
+    const char* point;
+    const char* unit;
+  } kNames[kKeyPointRows] = {{"Isc", "A"}, {"Voc", "V"}, {"Vmp", "V"}, {"Imp", "A"}};
+  const FamilyProblem& family = refined.family;
+  const WithoutWrongCells found =
+      FindWrongCells(refined.problem, refined.end, family.free_parameters, progress.stop());
+  OutlierFit fit;
+  fit.stopped = progress.Stopped();
+  if (found.cells.empty() || fit.stopped) return fit;
+  WithoutOutliers without;
+  for (const WrongCell& cell : found.cells) {
+    const int curve = family.curves.fitted[cell.curve];
+    const std::string& id = set.curves[curve].name;
+    const bool new_one = std::count(fit.curves.begin(), fit.curves.end(), curve) == 0;
+    if (new_one) fit.curves.push_back(curve);
+    if (new_one) without.ids.push_back(id);
+    without.cells.push_back(
+        {id, kNames[cell.point].point, kNames[cell.point].unit, cell.measured, cell.expected});
+  }
+  without.rmse = FamilyRmse(refined.problem, found.end.point);
+  const std::vector<double>& shared = found.end.point.shared;
+  without.shared.assign(shared.begin(), shared.begin() + family.translation.size());
+  fit.without_outliers = std::move(without);
+  return fit;
+}
+
 OutlierFit FitWithoutOutliers(const RefinedFamily& refined, const CurveSet& set,
                               const Observer& observer) {
   const FamilyProblem& family = refined.family;
   OutlierFit found;
   // The test frees the irradiance and temperature of a curve, which a curve with effects does not
-  // have as unknowns, and compares currents.
-  if (family.translation.extended || family.curves.key_points) return found;
+  // have as unknowns.
+  if (family.translation.extended) return found;
   const ProgressReporter progress(observer, "outlier curves", 0);
+  if (family.curves.key_points) return FitWithoutWrongCells(refined, set, progress);
   const std::vector<int> outliers =
       FindOutlierCurves(refined.problem, refined.end, progress.stop());
   found.stopped = progress.Stopped();
@@ -228,8 +261,7 @@ JudgedJointFit JudgeJointFit(const PreparedFamily& prepared, const RefinedFamily
   if (refined.family.curves.key_points) {
     judged.curves =
         WithKeyPoints(std::move(judged.curves), refined, judged.end.refined, judged.tests);
-    judged.key_points = SummariseKeyPoints(judged.curves, refined, options, judged.end.noise_A,
-                                           judged.end.reference);
+    judged.key_points = SummariseKeyPoints(judged.curves, refined, options, judged.end);
     if (options.intervals) {
       judged.equal_devices = FindEqualDevices(refined, judged.end.estimate.estimates, observer);
     }

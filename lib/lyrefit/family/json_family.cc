@@ -52,13 +52,15 @@ void to_json(Json& j, const RejectedCurve& curve) {
   j = {{"id", curve.id}, {"error", curve.error.ToString()}};
 }
 
+LYREFIT_JSON_FIELDS(OutlierCell, id, point, unit, measured, expected)
+
 LYREFIT_JSON_FIELDS(KeyPointFit, measured, model, held_out_power_W)
 
 LYREFIT_JSON_FIELDS(KeyPointErrors, short_circuit_current, open_circuit_voltage, max_power_voltage,
-                    max_power)
+                    max_power, temperature_K, irradiance)
 
 void to_json(Json& j, const KeyPointSummary& summary) {
-  LYREFIT_PUT_FIELDS(j, summary, errors, scale);
+  LYREFIT_PUT_FIELDS(j, summary, errors, found, scale);
   j["rms"] = Json{{"short_circuit_current", summary.short_circuit_current},
                   {"open_circuit_voltage", summary.open_circuit_voltage},
                   {"max_power_current", summary.max_power_current},
@@ -160,6 +162,7 @@ Json WithoutOutliersJson(const FamilyReport& report) {
   if (!report.without_outliers) return nullptr;
   const WithoutOutliers& without = *report.without_outliers;
   return {{"ids", without.ids},
+          {"cells", without.cells},
           {"rmse", without.rmse},
           {"parameters", ValuesJson(report.translation.parameters, without.shared)}};
 }

@@ -23,6 +23,20 @@ std::string Signed2(double percent) {
   return std::isfinite(percent) ? fmt::format("{:+.2f}", percent) : "-";
 }
 
+// "isc=0.25%,...; common to a set temperature 0.31 K, to a light 0.2 %"
+std::string ErrorsFoundText(const KeyPointErrors& found) {
+  KeyPointErrors own = found;
+  own.temperature_K = own.irradiance = kUnknown;
+  std::string text = KeyPointErrorsText(own);
+  if (std::isfinite(found.temperature_K)) {
+    text += fmt::format("; common to a set temperature {:.2g} K", found.temperature_K);
+  }
+  if (std::isfinite(found.irradiance)) {
+    text += fmt::format("; common to a light {:.2g} %", 100 * found.irradiance);
+  }
+  return text;
+}
+
 Section KeyPointSection(const FamilyReport& report) {
   Section section = {"Key points, model less measured (%)"};
   if (!report.key_points) return section;
@@ -78,6 +92,7 @@ Section KeyPointSection(const FamilyReport& report) {
                   KeyPointErrorsText(summary.errors), Significant(report.searched_key_points, 4),
                   Significant(report.refined_key_points, 4)),
       &section);
+  if (summary.found) AddField("errors found", ErrorsFoundText(*summary.found), &section);
   if (any_outside) {
     AddSentence(
         "outside: the measured Pmp lies outside the interval in which a fit without this condition "
@@ -85,9 +100,12 @@ Section KeyPointSection(const FamilyReport& report) {
         &section);
   }
   AddSentence(
-      "Intervals take the scale of the errors from the residuals. What all conditions have in "
-      "common (the lamp's calibration, the area) shows in no residual: it scales Iph, alpha and "
-      "Pmp, and comes on top.",
+      "Intervals take the errors from the residuals: those of each kind of key point, and those "
+      "that "
+      "conditions of one set temperature or of one light share (--key-point-errors "
+      "temperature=0.3K,light=0.3% states these). What all conditions have in common (the lamp's "
+      "calibration, the area) shows in no residual: it scales Iph, alpha and Pmp, and comes on "
+      "top.",
       &section);
   return section;
 }

@@ -99,10 +99,11 @@ std::vector<FamilyCurve> WithKeyPoints(std::vector<FamilyCurve> rows, const Refi
 
 KeyPointSummary SummariseKeyPoints(const std::vector<FamilyCurve>& rows,
                                    const RefinedFamily& refined, const FamilyOptions& options,
-                                   double noise_A, const KeyPoints& reference) {
+                                   const JudgedEnd& judged) {
   KeyPointSummary summary;
   summary.errors = options.key_point_errors;
-  summary.scale = noise_A / refined.problem.key_point_scale_A;
+  summary.found = judged.key_point_errors;
+  summary.scale = judged.noise_A / refined.problem.key_point_scale_A;
   const auto relative = [&](double KeyPoints::*point) {
     return RmsOver(rows, [point](const KeyPointFit& fit) {
       return fit.model.*point / fit.measured.*point - 1;
@@ -114,7 +115,8 @@ KeyPointSummary SummariseKeyPoints(const std::vector<FamilyCurve>& rows,
   summary.max_power_voltage = relative(&KeyPoints::max_power_voltage_V);
   summary.max_power = relative(&KeyPoints::max_power_W);
   summary.reference_power_W = MeasuredReferencePower(rows);
-  if (std::isnan(summary.reference_power_W)) summary.reference_power_W = reference.max_power_W;
+  if (std::isnan(summary.reference_power_W))
+    summary.reference_power_W = judged.reference.max_power_W;
   summary.max_power_of_reference = RmsOver(rows, [&](const KeyPointFit& fit) {
     return (fit.model.max_power_W - fit.measured.max_power_W) / summary.reference_power_W;
   });

@@ -9,6 +9,7 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_options.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/family/family_search.h"
@@ -97,11 +98,10 @@ double KeyPointRms(const JointProblem& problem, const JointPoint& point);
 std::vector<FamilyCurve> WithKeyPoints(std::vector<FamilyCurve> rows, const RefinedFamily& refined,
                                        const std::vector<double>& shared, const FamilyTests& tests);
 
-// Summarises the fitted curves of `rows`. `noise_A`: the residual standard deviation; `reference`:
-// of the model at the reference.
+// Summarises the fitted curves of `rows` of a judged fit.
 KeyPointSummary SummariseKeyPoints(const std::vector<FamilyCurve>& rows,
                                    const RefinedFamily& refined, const FamilyOptions& options,
-                                   double noise_A, const KeyPoints& reference);
+                                   const JudgedEnd& judged);
 
 // Devices that fit as well along the parameter that the key points determine least: one that is
 // not identifiable, or the ideality if its interval is wider than a third of its value. None if

@@ -12,6 +12,7 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/curve_set_builder.h"
+#include "lyrefit/read/key_point_columns.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/read/table_head.h"
@@ -149,17 +150,13 @@ struct LinePlace {
   std::string_view text;
 };
 
-// One condition while the table is read.
-struct Condition {
-  double irradiance_W_m2 = 0;
-  double temperature_C = 0;
-  int line = 0;
-  std::array<std::optional<double>, kKeyPoints> points;
-};
+using Condition = KeyPointCondition;
 
 struct KeyPointTable {
   std::vector<Condition> conditions;
+  int names_line = 0;  // of the names of the columns; 0: a wide table
   TableHead head;
+  bool skip_missing = false;   // a dash is a missing value
   std::optional<Error> error;  // of the first invalid field
 };
 
@@ -178,17 +175,26 @@ std::optional<LongHeader> AsLongHeader(std::string_view line) {
   return std::nullopt;
 }
 
+// "-", as tables write what was not measured.
+bool IsDash(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("-\u2013\u2014 ") == std::string_view::npos;
+}
+
 // The number in a field. Empty for a missing value; other text is recorded as the table's error.
 std::optional<double> NumberIn(const Fields& fields, std::size_t place, const LongHeader& header,
                                const LinePlace& at, KeyPointTable* table) {
   if (place >= fields.size() || IsMissingReading(fields[place], header.delimiter != ',')) {
     return std::nullopt;
   }
+  const bool dash = IsDash(fields[place]);
+  if (dash && table->skip_missing) return std::nullopt;
   const auto number = ParseNumber(fields[place], header.delimiter != ',');
   if (!number && !table->error) {
-    table->error = Error{fmt::format("expected a number in column {}, found {}",
-                                     header.names[place], Quoted(fields[place])),
-                         at.file, at.line, FieldColumn(at.text, header.delimiter, place)};
+    table->error =
+        Error{fmt::format("expected a number in column {}, found {}{}", header.names[place],
+                          Quoted(fields[place]),
+                          dash ? ": --skip-missing takes a dash as a missing value" : ""),
+              at.file, at.line, FieldColumn(at.text, header.delimiter, place)};
   }
   return number;
 }
@@ -282,8 +288,9 @@ class WideReader {
   std::vector<double> temperatures_;
 };
 
-KeyPointTable Parse(const std::string& text, const std::string& path) {
+KeyPointTable Parse(const std::string& text, const std::string& path, bool skip_missing = false) {
   KeyPointTable table;
+  table.skip_missing = skip_missing;
   WideReader wide(&table);
   std::optional<LongHeader> header;
   LineReader lines(text);
@@ -292,7 +299,7 @@ KeyPointTable Parse(const std::string& text, const std::string& path) {
     if (header) {
       ReadLongRow(*header, at, &table);
     } else if (table.conditions.empty() && (header = AsLongHeader(line))) {
-      continue;
+      table.names_line = at.line;
     } else if (!wide.Take(at)) {
       ReadHeadLine(line, at.line, HeadLine::kComment, &table.head);
     }
@@ -361,8 +368,9 @@ bool HoldsKeyPoints(const std::string& text, const std::string& path) {
 
 Expected<CurveSet> ReadKeyPoints(const DecodedText& text, const std::string& path,
                                  const std::string& common, const ReadOptions& options) {
-  const KeyPointTable table = Parse(text.text, path);
+  const KeyPointTable table = Parse(text.text, path, options.skip_missing);
   if (table.error) return tl::unexpected(*table.error);
+  TRY(CheckKeyPointColumns(table.conditions, path, table.names_line));
   CurveSetBuilder builder(std::filesystem::path(path).stem().string(), path, options);
   if (!text.remark.empty()) builder.Assume({text.remark});
   TRY(builder.ReadCommon(common, SidecarOf::kSet));
@@ -372,6 +380,7 @@ Expected<CurveSet> ReadKeyPoints(const DecodedText& text, const std::string& pat
       "key points of {} conditions, each read as the readings (0, Isc), (Vmp, Imp) and (Voc, 0)",
       table.conditions.size())});
   builder.Assume(WhatFollowsFromPower(table.conditions));
+  for (std::string& one : ImpossibleConditions(table.conditions)) builder.Assume({std::move(one)});
   std::map<std::string, int> ids;
   for (const Condition& condition : table.conditions) {
     Condition complete = condition;

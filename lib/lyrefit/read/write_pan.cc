@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
@@ -69,7 +70,12 @@ struct PanLines {
   void Number(const char* key, double value) { Add(fmt::format("  {}={}", key, Plain(value))); }
 };
 
-void AddCommercial(const PanNotes& notes, PanLines* lines) {
+// Whether PVsyst may name the technology otherwise: no file of it was seen.
+bool IsNameUnsure(const Technology& technology) {
+  return std::string_view(technology.pvsyst_name).rfind("mtaSiH", 0) == 0;
+}
+
+void AddCommercial(const PanNotes& notes, const Technology& technology, PanLines* lines) {
   lines->Add("PVObject_=pvModule");
   lines->Add("  Version=6.80");
   lines->Add("  Flags=$0043");
@@ -80,10 +86,15 @@ void AddCommercial(const PanNotes& notes, PanLines* lines) {
   lines->Add("    Manufacturer=" + OnOneLine(notes.manufacturer));
   lines->Add("    Model=" + OnOneLine(notes.name));
   lines->Add("    DataSource=lyrefit " + std::string(Version()) + ", fitted to measured curves");
-  lines->Add("    Remarks, Count=3");
+  const bool unsure = IsNameUnsure(technology);
+  lines->Add(fmt::format("    Remarks, Count={}", unsure ? 4 : 3));
   lines->Add("      Str_1=Only the electrical model is filled: RShunt, Rp_0, Rp_Exp, RSerie,");
   lines->Add("      Str_2=Gamma, muGamma and the values of its curve at 1000 W/m2 and 25 C.");
   lines->Add("      Str_3=Sizes, incidence angles, limits and prices are absent.");
+  if (unsure) {
+    lines->Add(fmt::format("      Str_4=If PVsyst refuses Technol={}, choose {} there.",
+                           technology.pvsyst_name, technology.name));
+  }
   lines->Add("    End of Remarks");
   lines->Add("  End of PVObject pvCommercial");
   lines->Add("");
@@ -127,7 +138,7 @@ Expected<std::string> PanText(const Translation& translation, const std::vector<
   if (std::isnan(points.max_power_W)) return Fail("the device gives no power at the reference");
   const TemperatureCoefficients slopes = CoefficientsAtReference(at, shared);
   PanLines lines;
-  AddCommercial(notes, &lines);
+  AddCommercial(notes, technology, &lines);
   lines.Add("  Technol=" + std::string(technology.pvsyst_name));
   lines.Number("NCelS", at.spec.cells_in_series);
   lines.Number("NCelP", 1);

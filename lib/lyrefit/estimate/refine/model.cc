@@ -63,7 +63,9 @@ void SetParameters(const std::vector<ParameterInfo>& infos, const std::vector<do
 
 double FitModel::MeanSquare(const FitPoint& point) const {
   double sum = 0;
-  const double* local = point.local.data();
+  std::vector<double> locals = point.local;
+  locals.resize(shape_.locals(), 0);
+  const double* local = locals.data();
   std::vector<double> residuals;
   for (std::size_t b = 0; b < shape_.blocks.size(); ++b) {
     residuals.assign(shape_.blocks[b].residuals, 0);

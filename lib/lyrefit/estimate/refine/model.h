@@ -85,7 +85,8 @@ class FitModel {
   virtual bool Evaluate(int block, const double* p, const double* local, double* residuals,
                         double* slopes, double* local_slopes) const = 0;
 
-  // Sum of squares over `points`, in A^2; not finite if the model cannot be evaluated.
+  // Sum of squares over `points`, in A^2; not finite if the model cannot be evaluated. Local unknowns
+  // that the point lacks are 0.
   virtual double MeanSquare(const FitPoint& point) const;
 
   // A coarsened model with equal parameters, for scanning search directions; null: none.

@@ -146,6 +146,12 @@ Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vecto
   return SpreadOf(now, found, model.shape().size(), 1);
 }
 
+RowMatrix InfluenceOf(const Linearization& now) {
+  const Directions found = FindDirections(now);
+  const RowMatrix taken = Times(ProjectOut(now), found.half);
+  return Times(Times(now.natural_slope, found.half), Eigen::MatrixXd(taken.transpose()));
+}
+
 std::vector<double> StretchOf(const std::vector<double>& under, const std::vector<double>& own) {
   std::vector<double> stretch;
   double largest = 1;

@@ -37,6 +37,11 @@ using CovarianceProduct = std::function<RowMatrix(const RowMatrix&)>;
 Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& active,
                   const CovarianceProduct& covariance_times);
 
+// Change of the natural parameters by an error of each row: N (J'J)^-1 J' along the directions that
+// the data determine, parameters x rows.
+struct Linearization;
+RowMatrix InfluenceOf(const Linearization& now);
+
 // Standard errors `under` other errors of the residuals over a fit's `own`. A parameter without a
 // finite ratio gets the largest of the others, at least 1.
 std::vector<double> StretchOf(const std::vector<double>& under, const std::vector<double>& own);

@@ -158,8 +158,8 @@ TEST(ReadTrend, CountsASweepOfAnotherDeviceWithTheReason) {
   const auto series = ReadFile(folder.Write("a.csv", SweepsText(sweeps)));
   ASSERT_TRUE(series) << series.error().ToString();
   ASSERT_EQ(series->rows.size(), sweeps.size());
-  EXPECT_EQ(series->rows.back().state, TrendRowState::kUnusable);
-  EXPECT_EQ(series->rows.back().reason, "a sweep of 72 cells in series, the law is of 60");
+  EXPECT_EQ(series->rows[7].state, TrendRowState::kDoubtful);
+  EXPECT_EQ(series->rows[7].reason, "a sweep of 72 cells in series, the law is of 60");
 }
 
 TEST(ReadTrend, RefusesAStateBesideSweeps) {

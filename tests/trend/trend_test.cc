@@ -329,7 +329,7 @@ TEST(FindTrend, LeavesOutWhatNoDeviceGivesAndSaysWhen) {
       {"columns", [](IvCurve* curve) { std::swap(curve->current_A, curve->voltage_V); },
        "exchanged"},
       {"cells", [](IvCurve* curve) { curve->conditions.cells_in_series = 72; },
-       "72 cells in series are stated, the device has 60"},
+       "a sweep of 72 cells in series, the law is of 60"},
       {"light", [](IvCurve* curve) { curve->conditions.irradiance_W_m2 = 1e300; },
        "an irradiance of 1e+300 W/m2"}};
   const TrendDevice device = MadeDevice();

@@ -127,21 +127,7 @@ class SeriesReader {
     return {};
   }
 
-  // Sweeps of another device do not follow the law.
-  void TakeOutOthers() {
-    const int cells = series_.device->cells_in_series;
-    const auto is_other = [&](const TimedSweep& sweep) {
-      const int its = sweep.curve.conditions.cells_in_series;
-      if (!sweep.curve.cells_known || its == cells) return false;
-      TakeBroken(sweep.time_s,
-                 fmt::format("a sweep of {} cells in series, the law is of {}", its, cells));
-      return true;
-    };
-    waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), is_other), waiting_.end());
-  }
-
   void Reduce() {
-    TakeOutOthers();
     AppendSweeps(waiting_, options_.threads, &series_);
     waiting_.clear();
   }

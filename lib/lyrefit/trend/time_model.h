@@ -12,9 +12,10 @@ namespace lyrefit {
 // exp(-ln 2 |t_i - t_j| / half_life) between days, so that gaps need no filling; e is independent,
 // with a variance that falls with the number of measurements of the day, 1 + k / count. The Kalman
 // filter of this state whitens the series and the columns of X in linear time (Harvey 1989,
-// "Forecasting, Structural Time Series Models and the Kalman Filter", 3.4). Sizes and half-life
-// maximise the restricted likelihood on a grid: over the sizes uphill, over all half-lives. Days far from the regression get a larger spread
-// (Huber's weights), so that they do not steer it.
+// "Forecasting, Structural Time Series Models and the Kalman Filter", 3.4). Days far from the
+// regression get a larger spread (Huber's weights, by the errors of the highest restricted likelihood),
+// so that they do not steer it. The sizes and the half-life are means over a grid, weighted by the
+// restricted likelihood.
 
 constexpr double kYear_days = 365.25;
 

@@ -102,8 +102,8 @@ std::optional<std::string> DoubtOf(const TrendDevice& device, const IvCurve& cur
                        curve.conditions.irradiance_W_m2, kMost_W_m2);
   }
   const int cells = curve.conditions.cells_in_series;
-  if (cells > 1 && cells != device.cells_in_series) {
-    return fmt::format("{} cells in series are stated, the device has {}", cells,
+  if (curve.cells_known && cells != device.cells_in_series) {
+    return fmt::format("a sweep of {} cells in series, the law is of {}", cells,
                        device.cells_in_series);
   }
   return PlausibilityProblem(curve);

@@ -139,9 +139,11 @@ Expected<ordered_json> RunTranslate(const PageRequest& request) {
 }
 
 Expected<ordered_json> RunCell(const PageRequest& request) {
-  TRY(const CellForm form, ReadCellForm(request.form));
+  TRY(CellForm form, ReadCellForm(request.form));
   if (request.files.empty()) return Fail("files: expected the names of a cell's measurements");
-  TRY(CurveSet cell, ReadCell(request.files, form.file.reading));
+  std::optional<double>& light = form.file.conditions.irradiance_W_m2;
+  TRY(CurveSet cell, ReadCell(request.files, form.file.reading, light));
+  if (cell.curves.size() > 1) light.reset();  // of each that states none
   TRY(ApplyStated(form.file, request.files.front(), &cell));
   TRY(const CellReport report, DescribeCell(cell, form.options, ProgressObserver()));
   return Answer({report.Usable(), report.name, BriefCell(report), CellDocument(report),

@@ -140,7 +140,7 @@ TEST(Engine, AllFilesAreOneCell) {
   EXPECT_TRUE(answer["usable"].get<bool>());
   EXPECT_THAT(Ask("cell", "")["error"].get<std::string>(), HasSubstr("expected the names"));
   EXPECT_THAT(Ask("cell", "", {{"irradiance-Wm2", "900"}}, CellFiles())["error"].get<std::string>(),
-              HasSubstr("irradiance-Wm2 is for one curve, this measurement has 4"));
+              HasSubstr("every lit curve states its own light"));
 }
 
 TEST(Engine, ADataSheetNeedsNoFile) {

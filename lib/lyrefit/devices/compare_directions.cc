@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/devices/describe_sweep.h"
 #include "lyrefit/devices/line.h"
 
@@ -85,10 +86,20 @@ struct RateFinding {
   std::vector<std::string> causes;
 };
 
+// Least exponent of the gap over the rate in a step that begins with a gap above `least`.
+double LeastStep(const std::vector<double>& rate, const std::vector<double>& gap, double least) {
+  double smallest = kInfinity;
+  for (std::size_t k = 1; k < gap.size(); ++k) {
+    if (!(gap[k - 1] > least)) continue;
+    smallest = std::min(smallest, std::log(gap[k] / gap[k - 1]) / std::log(rate[k] / rate[k - 1]));
+  }
+  return smallest;
+}
+
 // `rate`, `gap`: by rising rate. The exponent is that of the gap over the rate from end to end.
 RateFinding JudgeRates(const std::vector<double>& rate, const std::vector<double>& gap,
-                       bool sense_changes) {
-  constexpr double kPeak = 1.5, kProportional = 0.7, kConstant = 0.3;
+                       double noise, bool sense_changes) {
+  constexpr double kPeak = 1.5, kProportional = 0.7, kConstant = 0.3, kSaturates = 0.5, kNoises = 3;
   const auto at = std::max_element(gap.begin(), gap.end());
   const double ends = std::max(gap.front(), gap.back());
   const double exponent = std::log(gap.back() / gap.front()) / std::log(rate.back() / rate.front());
@@ -99,7 +110,7 @@ RateFinding JudgeRates(const std::vector<double>& rate, const std::vector<double
             {kIons}};
   }
   if (sense_changes) return {"the index changes its sign with the rate, as ions make it", {kIons}};
-  if (exponent > kProportional) {
+  if (exponent > kProportional && LeastStep(rate, gap, kNoises * noise) > kSaturates) {
     return {
         "the gap grows with the rate: late readings, a capacitance, or ions whose maximum lies "
         "above the fastest rate",
@@ -202,18 +213,25 @@ std::optional<HysteresisOverRate> CompareRates(const std::vector<CellSweep>& swe
   }
   std::vector<double> rates, gaps;
   bool shows = false, normal = false, inverted = false;
+  double noise = 0;
+  const DirectionPair* largest = &(*pairs)[over.pairs.front()];
   for (const int i : over.pairs) {
     const DirectionPair& pair = (*pairs)[i];
     rates.push_back(rate_of(i));
     gaps.push_back(OwnGap(pair));
+    noise = std::max(noise, pair.noise_percent);
+    if (pair.gap_percent > largest->gap_percent) largest = &pair;
     shows = shows || pair.sense != HysteresisSense::kNone;
     normal = normal || pair.sense == HysteresisSense::kNormal;
     inverted = inverted || pair.sense == HysteresisSense::kInverted;
   }
   if (!shows) return over;
-  RateFinding found = JudgeRates(rates, gaps, normal && inverted);
+  RateFinding found = JudgeRates(rates, gaps, noise, normal && inverted);
   over.finding = std::move(found.what);
-  over.causes = std::move(found.causes);
+  for (const std::string& cause : found.causes) {
+    const auto& own = largest->causes;
+    if (std::find(own.begin(), own.end(), cause) != own.end()) over.causes.push_back(cause);
+  }
   for (const int i : over.pairs) {
     if (!(*pairs)[i].causes.empty()) (*pairs)[i].causes = over.causes;
   }

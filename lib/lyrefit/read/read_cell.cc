@@ -65,14 +65,17 @@ void Append(CurveSet more, CurveSet* all) {
   for (Assumption& one : more.assumptions) all->assumptions.push_back(std::move(one));
 }
 
-// Gives the lit curves without a stated light this one.
-Expected<void> GiveLight(double irradiance_W_m2, CurveSet* cell) {
+// Gives the lit curves without a stated light this one. Returns their number.
+Expected<int> GiveLight(double irradiance_W_m2, CurveSet* cell) {
+  int given = 0;
   ConditionOptions light;
   light.irradiance_W_m2 = irradiance_W_m2;
   for (IvCurve& curve : cell->curves) {
-    if (IsLitSweep(curve) && !curve.irradiance_known) TRY(ApplyConditions(light, &curve));
+    if (!IsLitSweep(curve) || curve.irradiance_known) continue;
+    TRY(ApplyConditions(light, &curve));
+    ++given;
   }
-  return {};
+  return given;
 }
 
 // Densities without an area become currents of the area that another curve states. Error: they stand
@@ -116,7 +119,11 @@ Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOpt
     }
   }
   TRY(SettleAreas(options.area_cm2, &all));
-  if (unstated_W_m2) TRY(GiveLight(*unstated_W_m2, &all));
+  int lit = 0;
+  if (unstated_W_m2) {
+    TRY(const int curves, GiveLight(*unstated_W_m2, &all));
+    lit = curves;
+  }
   ReadOptions with_isc = options;
   if (!with_isc.isc_A) with_isc.isc_A = CurrentAtOneSun(all, true);
   const bool assumed = !with_isc.isc_A;
@@ -129,6 +136,9 @@ Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOpt
           "trace; give the true light with --irradiance-Wm2");
     }
     Append(std::move(set), &all);
+  }
+  if (unstated_W_m2 && lit == 0 && all.curves.size() > 1) {
+    return Fail("irradiance-Wm2: every lit curve states its own light", all.source);
   }
   const bool all_dark = std::all_of(all.curves.begin(), all.curves.end(), IsDark);
   if (all_dark && !all.rejected.empty()) return tl::unexpected(all.rejected.front().error);

@@ -16,7 +16,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 // current at one sun: where `options` have none, it is that of the brightest lit curve, over its
 // irradiance. `unstated_W_m2`: the light of the lit curves that state none; where it is not given
 // either, a trace in suns assumes 1000 W/m2. Current densities without an area are those of 1 cm2
-// (IvCurve::per_area), or of the area that another curve states.
+// (IvCurve::per_area), or of the area that another curve states. Errors beside those of reading:
+// densities beside currents of an unknown area, and a light given to several curves that all state theirs.
 Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOptions& options = {},
                             std::optional<double> unstated_W_m2 = {});
 

@@ -199,6 +199,51 @@ TEST_F(FamilyVerbOnASet, FitsAMatrixOfKeyPoints) {
   EXPECT_THAT(text.out, HasSubstr("key points (Isc, Voc, Vmp, Pmp); search: solved-current"));
 }
 
+// A matrix under these names of Isc, Voc, Imp and Vmp.
+std::string MatrixText(const std::string& names, const std::string& imp_of_800 = "6.3376") {
+  return "temp_cell,effective_irradiance," + names +
+         "\n15,200,1.6947,37.096,1.5666,31.742\n15,500,4.2247,38.699,3.9298,32.562\n15,1000,8.4442,"
+         "39.993,7.9205,32.587\n"
+         "25,200,1.6988,35.895,1.5676,30.435\n25,500,4.2486,37.475,3.9489,31.295\n"
+         "25,800,6.7936,38.35," +
+         imp_of_800 +
+         ",31.414\n25,1000,8.49,38.695,7.9447,31.36\n50,500,4.2955,34.421,3.9539,28.124\n50,1000,8."
+         "599,35.689,7.9438,28.315\n"
+         "75,500,4.3342,31.266,3.9546,24.931\n75,1000,8.6937,32.631,7.9299,25.208\n";
+}
+
+TEST_F(FamilyVerbOnASet, NamesWrongCellsAndExchangedColumnsOfAMatrix) {
+  const std::string names = "i_sc,v_oc,i_mp,v_mp", fit = "' --cells 60 --family pvsyst";
+  const std::string wrong = folder_.Write("wrong.csv", MatrixText(names, "6.971"));
+  const json j = FitJson("'" + wrong + fit + kQuickFamily);
+  ASSERT_EQ(j["without_outliers"]["cells"].size(), 1U);
+  EXPECT_EQ(j["without_outliers"]["cells"][0]["point"], "Imp");
+  EXPECT_EQ(j["without_outliers"]["cells"][0]["id"], "800 W/m2, 25 C");
+  EXPECT_NEAR(j["without_outliers"]["cells"][0]["expected"].get<double>(), 6.338, 0.1);
+  EXPECT_TRUE(j["curves"][5]["outlier"]);
+  EXPECT_THAT(j.dump(), HasSubstr("Imp 6.971 A is above Isc 6.794 A"));
+  const json left = FitJson("'" + wrong + fit + " --leave-out '800 W/m2, 25 C'" + kQuickFamily);
+  EXPECT_EQ(left["without_outliers"], nullptr);
+  EXPECT_EQ(left["curves"][5]["role"], "left-out");
+  const std::string exchanged = folder_.Write("exchanged.csv", MatrixText("i_sc,v_oc,v_mp,i_mp"));
+  ExpectRefused("'" + exchanged + fit, "exchanged.csv:1: Imp and Vmp look exchanged");
+  const std::string dashed = folder_.Write("dashed.csv", MatrixText(names, "-"));
+  ExpectRefused("'" + dashed + fit, "--skip-missing takes a dash as a missing value");
+  EXPECT_EQ(FitJson("'" + dashed + fit + " --skip-missing" + kQuickFamily)["curves"].size(), 11U);
+}
+
+TEST_F(FamilyVerbOnASet, WritesAPanFileOfAnAmorphousTandem) {
+  const std::string matrix = folder_.Write("film.csv", MatrixText("i_sc,v_oc,i_mp,v_mp"));
+  folder_.Write("film.json",
+                R"({"cells_in_series": 60, "technology": "Amorphous silicon tandem junction"})");
+  const std::string pan = folder_.Path("film.PAN");
+  const AppResult made =
+      RunApp("fit '" + matrix + "' --family pvsyst --json - --pan '" + pan + "'" + kQuickFamily);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(json::parse(made.out)["parameters"]["EgRef"]["refined"], 3.4);
+  EXPECT_THAT(FileText(pan), HasSubstr("Technol=mtaSiH_Tandem"));
+}
+
 TEST_F(FamilyVerbOnASet, FitsEveryCurveOnItsOwn) {
   const json j = FitJson(Set() + " --family free");
   EXPECT_EQ(j["family"], "free");

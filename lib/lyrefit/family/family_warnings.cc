@@ -26,7 +26,7 @@ Misfit MisfitOf(const FamilyReport& report) {
   Misfit misfit;
   if (report.key_points) {
     misfit.times = report.key_points->scale;
-    misfit.by_law = misfit.times > kLawMisses;
+    misfit.by_law = misfit.times > kLawMisses && !report.without_outliers;
     return misfit;
   }
   double joint = 0, free = 0, points = 0, largest = 0;

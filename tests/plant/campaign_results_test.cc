@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -241,6 +242,19 @@ TEST_F(CampaignResultsTest, AnotherVersionIsARemark) {
   ASSERT_TRUE(done) << done.error().ToString();
   ASSERT_EQ(found_.campaign.remarks.size(), 1u);
   EXPECT_THAT(found_.campaign.remarks[0], HasSubstr("by lyrefit 0.0.1"));
+}
+
+TEST_F(CampaignResultsTest, ASchemaOfOtherTypesAndAPipeAreRefusedWithTheirFile) {
+  std::string schema = FileText(Path("before/results.schema.json"));
+  const std::string task = "\"task\": \"field-test\"";
+  ASSERT_NE(schema.find(task), std::string::npos);
+  schema.replace(schema.find(task), task.size(), "\"task\": 7");
+  const std::string file = folder_.Write("before/results.schema.json", schema);
+  ExpectErrorAt(ReadEarlierResults(Path("before")), file, 0, 0,
+                "a value is of another type than expected: type must be string, but is number");
+  const std::string pipe = Path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(MessageOf(ReadEarlierResults(pipe)), HasSubstr("found a pipe or a device"));
 }
 
 }  // namespace

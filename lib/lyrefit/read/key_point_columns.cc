@@ -109,4 +109,8 @@ std::vector<std::string> ImpossibleConditions(const std::vector<KeyPointConditio
   return sentences;
 }
 
+bool IsDash(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("-\u2013\u2014 ") == std::string_view::npos;
+}
+
 }  // namespace lyrefit

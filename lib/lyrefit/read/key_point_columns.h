@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lyrefit/base/error.h"
@@ -25,5 +26,8 @@ Expected<void> CheckKeyPointColumns(const std::vector<KeyPointCondition>& condit
 
 // "line 12: Imp 7.578 A is above Isc 7.359 A, ..." for each condition that no device has.
 std::vector<std::string> ImpossibleConditions(const std::vector<KeyPointCondition>& conditions);
+
+// "-", as tables write what was not measured.
+bool IsDash(std::string_view text);
 
 }  // namespace lyrefit

@@ -175,11 +175,6 @@ std::optional<LongHeader> AsLongHeader(std::string_view line) {
   return std::nullopt;
 }
 
-// "-", as tables write what was not measured.
-bool IsDash(std::string_view text) {
-  return !text.empty() && text.find_first_not_of("-\u2013\u2014 ") == std::string_view::npos;
-}
-
 // The number in a field. Empty for a missing value; other text is recorded as the table's error.
 std::optional<double> NumberIn(const Fields& fields, std::size_t place, const LongHeader& header,
                                const LinePlace& at, KeyPointTable* table) {

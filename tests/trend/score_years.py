@@ -105,10 +105,19 @@ def rates_of(truth, report):
         yield row
 
 
+# What happened, by the id of the cause that a report names. A shunt alone is how PID begins.
+CAUSES = {
+    "lost_substrings": "bypass_short",
+    "series_resistance_step": "series_step",
+    "potential_induced_degradation": "pid",
+    "growing_shunt": "pid",
+}
+
+
 def claims_of(report):
     for onset in report.get("onsets", []):
         yield {"day": day(onset["date"]), "quantity": named(onset.get("quantity", "")),
-               "cause": onset.get("cause", ""), "step": None}
+               "cause": CAUSES.get(onset.get("id"), onset.get("cause", "")), "step": None}
     for quantity in report.get("quantities", []):
         for step in quantity.get("steps", []):
             yield {"day": day(step["date"]), "quantity": named(quantity["name"]), "cause": "", "step": step}

@@ -69,8 +69,8 @@ TEST(CellCommand, SunsVocTakesItsIscFromTheLitCurve) {
 const std::string kDensities = [] {
   std::string rows = "V (V),J (mA/cm2)\n";
   for (int k = 0; k <= 45; ++k) {
-    const double voltage_V = 0.02 * k;
-    rows += fmt::format("{},{}\n", voltage_V, 22 - 1e-9 * std::expm1(voltage_V / 0.036));
+    const double junction_V = 0.02 * k, current = 22 - 1e-9 * std::expm1(junction_V / 0.036);
+    rows += fmt::format("{},{}\n", junction_V - 0.002 * current, current);
   }
   return rows;
 }();

@@ -195,10 +195,8 @@ std::optional<double> AsScanRate(const Statement& statement) {
 // seconds must say of what it is, since the settings of a sweep are times too.
 std::optional<double> AsElapsedHours(const Statement& statement) {
   static const std::set<std::string> kOperation = {
-      "age",       "ageing",        "ageingtime",    "aging",         "agingtime",
-      "elapsed",   "elapsedtime",   "exposuretime",  "lightsoaking",  "lightsoakingtime",
-      "operation", "operatingtime", "operationtime", "soaking",       "soakingtime",
-      "stability", "stabilitytime", "stresstime",    "timeunderlight"};
+      "ageing",        "ageingtime",    "agingtime", "lightsoaking", "lightsoakingtime",
+      "operatingtime", "operationtime", "soaking",   "soakingtime",  "stresstime"};
   const std::string& unit = statement.unit;
   double hours = 0;
   for (const auto& [text, factor] :
@@ -210,7 +208,7 @@ std::optional<double> AsElapsedHours(const Statement& statement) {
     if (unit == text || (bare && factor >= 1)) hours = factor;
   }
   const bool operation = kOperation.count(statement.name) != 0;
-  const bool plain = statement.name == "time" || statement.name == unit || unit.empty();
+  const bool plain = statement.name == "time" || statement.name == "elapsedtime" || unit.empty();
   if (hours == 0 || !(operation || (plain && hours > 1e-3)) || !(statement.value >= 0)) {
     return std::nullopt;
   }

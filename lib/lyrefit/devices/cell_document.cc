@@ -293,7 +293,9 @@ std::string CellText(const CellReport& report, Length length) {
 
 std::string BriefCell(const CellReport& report) {
   std::string text = report.name + ": " + CellVerdict(report);
+  const std::vector<std::string> doubts = DoubtsOf(report);
   const std::string marks = BriefMarks(report.interrupted, true, report.warnings.size());
+  if (!doubts.empty()) text += " DOUBTFUL: " + doubts.front() + ".";
   if (!marks.empty() && text.back() == '.') text.pop_back();  // the marks go on with a comma
   return text + marks + "\n";
 }

@@ -302,7 +302,7 @@ struct JointEstimate : EstimateReport {
   bool warmer = false;
   double warmer_p = kUnknown;   // p-value of one temperature against two; NaN: none or all are lit
   double voc_per_K = kUnknown;  // of the law behind dT, V: what the readings tell is the product
-  bool either = false;
+  bool either = false;          // a temperature and a second diode explain the readings alike
   double contacts_p =
       kUnknown;  // p-value of one series resistance against it; NaN of a single cell
   // Power that this part loses under the brightest light, beside one with the resistance of the rest.

@@ -42,7 +42,8 @@ struct JunctionTest {
 
 // Curves whose stated lights fit far better when exchanged.
 struct ExchangedLights {
-  std::string first, second;  // ids of the curves
+  std::string first;          // id of a curve
+  std::string second;         // id of the other one
   double rmse_A = kUnknown;   // with exchanged lights
 };
 

@@ -157,8 +157,8 @@ struct FamilyCandidate {
 struct OutlierCell {
   std::string id;     // of the condition
   std::string point;  // "Isc", "Voc", "Imp" or "Vmp"
-  std::string unit;
-  double measured = kUnknown;
+  std::string unit;            // "A" or "V"
+  double measured = kUnknown;  // in that unit
   double expected = kUnknown;  // by the fit without it
 };
 

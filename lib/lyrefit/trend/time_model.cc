@@ -52,10 +52,16 @@ class Likelihoods {
     columns_ << basis, values - basis * (basis.transpose() * values);
   }
 
-  // The logarithm, without constants, and the variance of e on a usual day.
+  // The logarithm, without constants, of the values over the root of `unit`; the variance of e on a
+  // usual day.
   struct Found {
-    double log = 0;
+    double degrees = 0;
+    double log_determinants = 0;
     double variance = 0;
+
+    double Log(double unit = 1) const {
+      return -0.5 * (degrees * std::log(variance / unit) + log_determinants);
+    }
   };
   Found Of(const ErrorFilter& filter) const {
     const Eigen::MatrixXd white = filter.Whiten(columns_);
@@ -66,7 +72,7 @@ class Likelihoods {
     const double squares = cross(p, p) - fitted.squaredNorm();
     const double log_det = 2 * factor.matrixLLT().diagonal().array().max(1e-300).log().sum();
     const double variance = std::max(squares / degrees_, 1e-300);
-    return {-0.5 * (degrees_ * std::log(variance) + filter.log_determinant() + log_det), variance};
+    return {degrees_, filter.log_determinant() + log_det, variance};
   }
 
  private:
@@ -100,7 +106,7 @@ BestNoise BestNoiseOf(const std::vector<double>& outlying, const Likelihoods& li
                       TimeSeries* fitted) {
   TimeSeries& series = *fitted;
   const auto likelihood = [&](double ratio, double half_life) {
-    return likelihoods.Of(ErrorFilter(ratio, half_life, series)).log;
+    return likelihoods.Of(ErrorFilter(ratio, half_life, series)).Log();
   };
   double highest = -HUGE_VAL, usual = 0;
   for (const double k : kPerMeasurement) {
@@ -159,12 +165,15 @@ BestNoise MeanNoiseOf(const Likelihoods& likelihoods, const TimeSeries& series) 
     if (half_life > span / 3) break;
     for (const double ratio : kRatios) add(ratio, half_life);
   }
-  tried.front().found.log += std::log(std::max<double>(1, static_cast<double>(tried.size()) - 1));
+  // Over the first variance, so that the unit of the series changes no bit.
+  const double unit = tried.front().found.variance;
+  const double others = std::max<double>(1, static_cast<double>(tried.size()) - 1);
   double highest = -HUGE_VAL;
-  for (const Tried& one : tried) highest = std::max(highest, one.found.log);
+  for (const Tried& one : tried) highest = std::max(highest, one.found.Log(unit));
   double own = 0, shared = 0, half_life = 0;
   for (const Tried& one : tried) {
-    const double weight = std::exp(one.found.log - highest) * one.found.variance;
+    const double weight = std::exp(one.found.Log(unit) - highest) * one.found.variance / unit *
+                          (one.ratio > 0 ? 1 : others);
     own += weight;
     if (!(one.ratio > 0)) continue;
     shared += weight * one.ratio;

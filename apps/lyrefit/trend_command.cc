@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <tuple>
 
 #include "flags.h"
 #include "interrupt.h"
@@ -17,7 +15,6 @@
 #include "lyrefit/report/plots.h"
 #include "lyrefit/trend/read_trend.h"
 #include "lyrefit/trend/trend.h"
-#include "lyrefit/trend/trend_device.h"
 #include "lyrefit/trend/trend_documents.h"
 #include "verbs.h"
 
@@ -93,23 +90,9 @@ Expected<TrendSeries> ReadMeasurements(const TrendRequest& request,
   return ReadTrend(request.inputs, reading, request.options, TerminalObserver());
 }
 
-// A state has a law of its own: what the flags say of the device must be that.
-Expected<void> CheckAgainstState(const TrendRequest& request, const TrendReadOptions& reading,
-                                 const TrendSeries& state, const std::string& path) {
-  const ConditionOptions& said = request.conditions;
-  const TrendDevice& device = *state.device;
-  for (const auto& [flag, given, own] :
-       {std::tuple{"--cells", said.cells, device.cells_in_series},
-        {"--bypass-diodes", said.bypass_diodes, device.substrings}}) {
-    if (!given || *given == own) continue;
-    return Fail(fmt::format("{} {}: the law of this state has {}", flag, *given, own), path, 1);
-  }
-  TrendSeries now = reading.law.value_or(state);
-  TrendDevice its = *now.device;
-  its.substrings = device.substrings;
-  now.device = std::make_shared<const TrendDevice>(its);
-  now.source = request.operating ? TrendSource::kOperatingPoints : TrendSource::kSweeps;
-  return CheckSameLaw(state, now, path);
+SaidOfDevice SaidBy(const TrendRequest& request, const TrendReadOptions& reading) {
+  return {request.conditions.cells, request.conditions.bypass_diodes, reading.law,
+          request.operating ? TrendSource::kOperatingPoints : TrendSource::kSweeps};
 }
 
 Expected<TrendSeries> ReadSeries(const TrendRequest& request) {
@@ -117,10 +100,9 @@ Expected<TrendSeries> ReadSeries(const TrendRequest& request) {
   const std::string& first = request.inputs.front();
   if (request.inputs.size() > 1 || !IsTrendState(first)) return ReadMeasurements(request, reading);
   TRY(TrendSeries series, ReadTrendState(first));
-  if (reading.law || request.operating || request.conditions.cells ||
-      request.conditions.bypass_diodes) {
-    TRY(CheckAgainstState(request, reading, series, first));
-  }
+  SaidOfDevice said = SaidBy(request, reading);
+  if (!request.operating) said.source.reset();
+  TRY(CheckSaid(series, said, first));
   return series;
 }
 
@@ -154,7 +136,7 @@ Expected<int> AppendToState(VerbLine& verb, const TrendRequest& request) {
   TRY(auto state, ReadTrendStateHead(request.state_file));
   if (state) {
     TRY(TrendReadOptions reading, ReadingOf(request));
-    TRY(CheckAgainstState(request, reading, *state, request.state_file));
+    TRY(CheckSaid(*state, SaidBy(request, reading), request.state_file));
     reading.law = std::move(state);
     TRY(series, ReadMeasurements(request, reading));
   } else {

@@ -60,6 +60,18 @@ Expected<std::int64_t> AppendTrendState(const std::string& path, const TrendSeri
 Expected<void> CheckSameLaw(const TrendSeries& state, const TrendSeries& series,
                             const std::string& path);
 
+// What is said of a device beside its state.
+struct SaidOfDevice {
+  std::optional<int> cells_in_series;
+  std::optional<int> bypass_diodes;   // of the whole device
+  std::optional<TrendSeries> law;     // of its module
+  std::optional<TrendSource> source;  // of what was measured
+};
+
+// Errors: what is said is not that of the state, which has a law of its own; `path` is its file.
+Expected<void> CheckSaid(const TrendSeries& state, const SaidOfDevice& said,
+                         const std::string& path);
+
 // Reads a state. Errors, with the line: another file, a line that is broken or was changed. States
 // of lyrefit 1.0.0 have no checksums.
 Expected<TrendSeries> ReadTrendState(const std::string& path);

@@ -275,6 +275,24 @@ Expected<void> CheckSameLaw(const TrendSeries& state, const TrendSeries& other,
       path, 1);
 }
 
+Expected<void> CheckSaid(const TrendSeries& state, const SaidOfDevice& said,
+                         const std::string& path) {
+  const TrendDevice& device = *state.device;
+  for (const auto& [flag, given, own] :
+       {std::tuple{"--cells", said.cells_in_series, device.cells_in_series},
+        {"--bypass-diodes", said.bypass_diodes, device.substrings}}) {
+    if (!given || *given == own) continue;
+    return Fail(fmt::format("{} {}: the law of this state has {}", flag, *given, own), path, 1);
+  }
+  if (!said.law && !said.source) return {};
+  TrendSeries other = said.law.value_or(state);
+  TrendDevice its = *other.device;
+  its.substrings = device.substrings;
+  other.device = std::make_shared<const TrendDevice>(its);
+  other.source = said.source.value_or(TrendSource::kSweeps);
+  return CheckSameLaw(state, other, path);
+}
+
 bool IsTrendState(const std::string& path) {
   if (IsStream(path)) return false;  // opening a pipe would wait for its writer
   std::ifstream in(path, std::ios::binary);

@@ -60,7 +60,7 @@ const std::vector<OptionRow<TwoJunctionOptions>>& OwnRows() {
     auto* own = new std::vector<OptionRow<TwoJunctionOptions>>();
     std::copy_if(std::begin(kTwoJunctionOptionTable), std::end(kTwoJunctionOptionTable),
                  std::back_inserter(*own), [](const OptionRow<TwoJunctionOptions>& row) {
-                   return row.name == std::string("light");
+                   return std::string(row.name).rfind("light", 0) == 0;
                  });
     return own;
   }();
@@ -87,8 +87,9 @@ JunctionKeywords ReadJunctionKeywords(Keywords* keywords) {
     CheckRange("junctions", static_cast<double>(junctions), 1, 2);
     asked.junctions = static_cast<int>(junctions);
   }
-  if (asked.junctions == 1 && keywords->Given("light")) {
-    Raise({"light is about the junctions of a tandem: it needs junctions=2", {}});
+  for (const char* const name : {"light", "light_accuracy"}) {
+    if (asked.junctions != 1 || !keywords->Given(name)) continue;
+    Raise({std::string(name) + " is about the junctions of a tandem: it needs junctions=2", {}});
   }
   for (const char* const name : kNotOfTwo) {
     if (asked.junctions == 2 && keywords->Given(name)) {

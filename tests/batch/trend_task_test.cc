@@ -52,7 +52,7 @@ TEST_F(TrendTaskTest, EachFileIsADeviceWithARowOfItsTrend) {
     EXPECT_EQ(rows[r]["status"], "fine") << rows[r]["reason"];
     EXPECT_GT(rows[r]["measurements"], rows[r]["measurements_used"].get<int>());
     EXPECT_GT(rows[r]["reference_power_W"], 240);
-    EXPECT_LT(rows[r]["p_mp_rate_percent_low_95"], rows[r]["p_mp_rate_percent"].get<double>());
+    EXPECT_TRUE(rows[r]["p_mp_rate_percent"].is_null()) << "below a year";
     for (const std::string loss : {"loss_", "loss_now_"}) {
       double parts = 0;
       for (const char* part :
@@ -80,7 +80,7 @@ TEST_F(TrendTaskTest, EachFileIsADeviceWithARowOfItsTrend) {
               testing::AnyOf("growing_shunt", "potential_induced_degradation"));
   EXPECT_EQ(rows[2]["cause_about"], "device");
   EXPECT_EQ(rows[2]["largest_loss"], "shunt");
-  EXPECT_GT(rows[2]["conductance_shunt_rate_S_low_95"], 0);
+  EXPECT_TRUE(rows[2]["conductance_shunt_rate_S_low_95"].is_null());
 }
 
 TEST_F(TrendTaskTest, BrokenFileIsABrokenRow) {

@@ -36,14 +36,14 @@ JunctionTest TestJunctions(const PreparedTwoJunctions& prepared, const FitPoint&
     noise += static_cast<double>(residual.size()) * own * own;
   }
   const int degrees = prepared.readings - prepared.free_parameters;
-  const int degrees_of_noise = prepared.readings / kReadingsOfNoise;
+  const int of_noise = prepared.readings / kReadingsOfNoise;
   JunctionTest test;
   const double exact = kExactPart * problem.current_scale_A;
   if (!(noise > prepared.readings * exact * exact) || degrees < 1) return test;
   test.noise_A = std::sqrt(noise / prepared.readings);
   const double f = squares / degrees / (test.noise_A * test.noise_A);
   test.rmse_over_noise = std::sqrt(f);
-  test.p_value = FTestPValue(1 + f * degrees / degrees_of_noise, 1, degrees, degrees_of_noise);
+  test.p_value = FTestPValue(1 + f * degrees / of_noise, 1, degrees, of_noise);
   return test;
 }
 

@@ -24,7 +24,7 @@ bool IsMissed(const JunctionTest& test);
 // p-value of what errors of the stated lights explain, if the lights are exact (F-test). NaN: no light
 // may err, or the readings are exact.
 double PValueOfExactLights(const PreparedTwoJunctions& prepared, double noise_A,
-                           const RefineEnd& end, const StopToken& stop);
+                           const RefineEnd& exact, const StopToken& stop);
 
 // What the tests of a report say, and what to do.
 std::vector<std::string> TestWarnings(const TwoJunctionReport& report);

@@ -56,7 +56,8 @@ std::vector<LightErrors> LightErrorsOf(const TwoJunctionProblem& problem,
 
 // Parameters of the device in the light of one curve, in the order of TwoJunctionInfos.
 std::array<double, kTwoJunctionParameters> DeviceIn(const TwoJunctionProblem& problem, int curve,
-                                                    const double* p, const LightErrors& light = {});
+                                                    const double* p,
+                                                    const LightErrors& errors = {});
 
 // Parameters of the device under the reference light.
 std::array<double, kTwoJunctionParameters> JunctionsAtReference(const TwoJunctionProblem& problem,

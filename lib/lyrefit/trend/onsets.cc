@@ -241,33 +241,52 @@ std::vector<TrendOnset> WithoutEchoes(const std::vector<TrendOnset>& onsets) {
   return own;
 }
 
+// A step of a parameter about a day that is larger than what one device does in a day; null: none.
+const TrendChange* LargeStepOn(const TrendReport& report, const TrendQuantity& quantity,
+                               double time_s) {
+  constexpr double kSameDay_s = 3 * kDay_s;
+  // Of light in %, of the reference, of a cell in V, of the reference.
+  constexpr double kLight = 1, kSeries = 0.04, kCell_V = 0.002, kShunt = 0.1;
+  double least = kInfinity;
+  if (quantity.name == "light") least = kLight;
+  if (quantity.name == "resistance_series") least = kSeries * quantity.reference;
+  if (quantity.name == "recombination") least = kCell_V * report.cells_in_series;
+  if (quantity.name == "conductance_shunt") least = kShunt * quantity.reference;
+  for (const TrendChange& change : quantity.changes) {
+    const bool near = !change.onset && std::fabs(change.time_s - time_s) <= kSameDay_s;
+    if (near && std::fabs(change.size.value) > least) return &change;
+  }
+  return nullptr;
+}
+
+// Whether a shunt grew before a day: then all parameters change as it does.
+bool ShuntGrowsBefore(const TrendReport& report, double time_s) {
+  for (const TrendQuantity& quantity : report.quantities) {
+    if (quantity.name != "conductance_shunt") continue;
+    for (const TrendChange& change : quantity.changes) {
+      if (change.size.value > 0 && change.time_s < time_s - 3 * kDay_s) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<ExchangedDevice> FindExchange(const TrendBlocks& blocks, const TrendReport& report) {
-  constexpr double kSameDay_s = 3 * kDay_s;
   constexpr std::size_t kLeastChanged = 3;
-  // Least improvements that no device makes by itself: of the reference, of a voltage of 1 V a cell.
-  constexpr double kBetter = 0.04, kBetter_V = 0.002;
+  if (report.source != TrendSource::kSweeps) return std::nullopt;
   for (const TrendQuantity& first : report.quantities) {
     for (const TrendChange& at : first.changes) {
-      if (at.onset) continue;
+      if (at.onset || ShuntGrowsBefore(report, at.time_s)) continue;
       ExchangedDevice found{at.time_s, {}};
       bool better = false;
       for (const TrendQuantity& one : report.quantities) {
-        const bool device = one.name == "resistance_series" || one.name == "recombination" ||
-                            one.name == "conductance_shunt";
-        if (!device && one.name != "light") continue;
-        for (const TrendChange& step : one.changes) {
-          if (step.onset || std::fabs(step.time_s - at.time_s) > kSameDay_s) continue;
-          found.changed.push_back(fmt::format("{} {:+.3g} {}",
-                                              one.title.substr(0, one.title.find(',')),
-                                              step.size.value, one.unit));
-          found.time_s = std::min(found.time_s, step.time_s);
-          const double least = one.name == "recombination" ? kBetter_V * report.cells_in_series
-                                                           : kBetter * one.reference;
-          better |= device && step.size.high_95 < -least;
-          break;
-        }
+        const TrendChange* const step = LargeStepOn(report, one, at.time_s);
+        if (step == nullptr) continue;
+        found.changed.push_back(fmt::format(
+            "{} {:+.3g} {}", one.title.substr(0, one.title.find(',')), step->size.value, one.unit));
+        found.time_s = std::min(found.time_s, step->time_s);
+        better |= one.name != "light" && step->size.high_95 < 0;
       }
       if (better && found.changed.size() >= kLeastChanged &&
           !SubstringsChange(blocks, found.time_s)) {

@@ -57,7 +57,7 @@ Expected<TrendSeries> ReadOperatingPoints(const std::vector<std::string>& files,
 Expected<std::int64_t> AppendTrendState(const std::string& path, const TrendSeries& series);
 // Error, as a sentence: the series is of another law than the state, or of another kind of
 // measurements.
-Expected<void> CheckSameLaw(const TrendSeries& state, const TrendSeries& series,
+Expected<void> CheckSameLaw(const TrendSeries& state, const TrendSeries& other,
                             const std::string& path);
 
 // What is said of a device beside its state.

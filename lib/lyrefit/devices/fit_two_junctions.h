@@ -42,9 +42,9 @@ struct JunctionTest {
 
 // Curves whose stated lights fit far better when exchanged.
 struct ExchangedLights {
-  std::string first;          // id of a curve
-  std::string second;         // id of the other one
-  double rmse_A = kUnknown;   // with exchanged lights
+  std::string first;         // id of a curve
+  std::string second;        // id of the other one
+  double rmse_A = kUnknown;  // with exchanged lights
 };
 
 // Report of FitTwoJunctions(). The objective is the solved current; there is no explicit right-hand

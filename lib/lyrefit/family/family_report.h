@@ -155,8 +155,8 @@ struct FamilyCandidate {
 
 // A stated key point that the others contradict.
 struct OutlierCell {
-  std::string id;     // of the condition
-  std::string point;  // "Isc", "Voc", "Imp" or "Vmp"
+  std::string id;              // of the condition
+  std::string point;           // "Isc", "Voc", "Imp" or "Vmp"
   std::string unit;            // "A" or "V"
   double measured = kUnknown;  // in that unit
   double expected = kUnknown;  // by the fit without it

@@ -144,8 +144,8 @@ Expected<PanObject> ParsePan(const std::string& text, const std::string& path) {
     if (auto block = Opened(key, value)) {
       if (open.size() >= kDeepestBlock) {
         return Fail(
-            fmt::format("expected \"End of ...\", found a block within {} others", kDeepestBlock), path,
-            reader.number(), static_cast<int>(margin) + 1);
+            fmt::format("expected \"End of ...\", found a block within {} others", kDeepestBlock),
+            path, reader.number(), static_cast<int>(margin) + 1);
       }
       open.push_back({block->name, block->type, std::string(line), reader.number()});
     } else if (IsOfModule(open)) {

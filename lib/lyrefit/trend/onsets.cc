@@ -96,7 +96,8 @@ bool ReturnsWithSeason(const TrendBlocks& blocks, double time_s) {
     const double own = MismatchFrom(blocks, begin_s);
     if (!std::isfinite(own)) continue;
     const double season = std::fabs(std::remainder((time_s - begin_s) / kDay_s, kYear_days));
-    if (season < 2 * kShade_days && time_s - begin_s > kYear_days / 2 && !(own <= before)) {
+    if (season < 2 * kShade_days && time_s - begin_s > 0.5 * kYear_days * kDay_s &&
+        !(own <= before)) {
       before = own;
     }
     least = std::min(least, own);
@@ -274,12 +275,13 @@ bool ShuntGrowsBefore(const TrendReport& report, double time_s) {
 
 std::optional<ExchangedDevice> FindExchange(const TrendBlocks& blocks, const TrendReport& report) {
   constexpr std::size_t kLeastChanged = 3;
+  constexpr double kGreat_V = 0.02;  // of a cell: no device gains as much, no sensor errs by it
   if (report.source != TrendSource::kSweeps) return std::nullopt;
   for (const TrendQuantity& first : report.quantities) {
     for (const TrendChange& at : first.changes) {
       if (at.onset || ShuntGrowsBefore(report, at.time_s)) continue;
       ExchangedDevice found{at.time_s, {}};
-      bool better = false;
+      bool better = false, great = false;
       for (const TrendQuantity& one : report.quantities) {
         const TrendChange* const step = LargeStepOn(report, one, at.time_s);
         if (step == nullptr) continue;
@@ -287,9 +289,11 @@ std::optional<ExchangedDevice> FindExchange(const TrendBlocks& blocks, const Tre
             "{} {:+.3g} {}", one.title.substr(0, one.title.find(',')), step->size.value, one.unit));
         found.time_s = std::min(found.time_s, step->time_s);
         better |= one.name != "light" && step->size.high_95 < 0;
+        great |=
+            one.name == "recombination" && step->size.high_95 < -kGreat_V * report.cells_in_series;
       }
-      if (better && found.changed.size() >= kLeastChanged &&
-          !SubstringsChange(blocks, found.time_s)) {
+      const std::size_t least = great ? kLeastChanged - 1 : kLeastChanged;
+      if (better && found.changed.size() >= least && !SubstringsChange(blocks, found.time_s)) {
         return found;
       }
     }

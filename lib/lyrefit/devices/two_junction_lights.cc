@@ -35,15 +35,15 @@ JunctionTest TestJunctions(const PreparedTwoJunctions& prepared, const FitPoint&
     const double own = NoiseFromDifferences(curve.voltage_V, residual);
     noise += static_cast<double>(residual.size()) * own * own;
   }
-  const int degrees = prepared.readings - prepared.free_parameters;
+  const int of_misfit = prepared.readings - prepared.free_parameters;
   const int of_noise = prepared.readings / kReadingsOfNoise;
   JunctionTest test;
   const double exact = kExactPart * problem.current_scale_A;
-  if (!(noise > prepared.readings * exact * exact) || degrees < 1) return test;
+  if (!(noise > prepared.readings * exact * exact) || of_misfit < 1) return test;
   test.noise_A = std::sqrt(noise / prepared.readings);
-  const double f = squares / degrees / (test.noise_A * test.noise_A);
+  const double f = squares / of_misfit / (test.noise_A * test.noise_A);
   test.rmse_over_noise = std::sqrt(f);
-  test.p_value = FTestPValue(1 + f * degrees / of_noise, 1, degrees, of_noise);
+  test.p_value = FTestPValue(1 + f * of_misfit / of_noise, 1, of_misfit, of_noise);
   return test;
 }
 

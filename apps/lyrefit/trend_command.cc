@@ -122,13 +122,13 @@ std::string RowText(const TrendRow& row) {
   return text + "\n";
 }
 
-// How many measurements are unusable, and the reason of the first.
-std::string UnusableText(const std::vector<TrendRow>& rows) {
-  const auto unusable = [](const TrendRow& row) { return row.state == TrendRowState::kUnusable; };
-  const auto first = std::find_if(rows.begin(), rows.end(), unusable);
+// How many measurements are left out, and the reason of the first.
+std::string LeftOutText(const std::vector<TrendRow>& rows) {
+  const auto left_out = [](const TrendRow& row) { return !row.reason.empty(); };
+  const auto first = std::find_if(rows.begin(), rows.end(), left_out);
   if (first == rows.end()) return {};
-  return fmt::format("{} of them unusable, the first: {}\n",
-                     std::count_if(first, rows.end(), unusable), first->reason);
+  return fmt::format("{} of them left out, the first: {}\n",
+                     std::count_if(first, rows.end(), left_out), first->reason);
 }
 
 Expected<int> AppendToState(VerbLine& verb, const TrendRequest& request) {
@@ -149,7 +149,7 @@ Expected<int> AppendToState(VerbLine& verb, const TrendRequest& request) {
     for (const TrendRow& row : series.rows) text += RowText(row);
   }
   text += fmt::format("{} of {} appended to {}\n", written, series.rows.size(), request.state_file);
-  if (series.rows.size() > kShown) text += UnusableText(series.rows);
+  if (series.rows.size() > kShown) text += LeftOutText(series.rows);
   TRY(WriteText(verb, [&] { return text; }));
   return series.interrupted ? kExitInterrupted : kExitFine;
 }

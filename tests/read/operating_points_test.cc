@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <vector>
 
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/read/table_view.h"
 #include "temp_folder.h"
 
@@ -16,6 +19,30 @@ TEST(ReadOperatingTable, RefusesFilesThatAreMissingOrTooLarge) {
   const TempFolder folder;
   EXPECT_FALSE(ReadOperatingTable(folder.Path("missing.csv"), 1 << 20));
   EXPECT_FALSE(ReadOperatingTable(folder.Write("large.csv", std::string(200, 'x')), 100));
+}
+
+std::string Points(const std::vector<std::string>& dates) {
+  std::string text = "time,irradiance,temperature,vmp,imp\n";
+  for (const std::string& date : dates) text += date + ",800,40,30,7\n";
+  return text;
+}
+
+TEST(ReadOperatingTable, TellsDayFromMonthByAllDatesAndCountsRowsWithoutOne) {
+  const TempFolder folder;
+  const auto read = [&](const std::vector<std::string>& dates) {
+    return ReadOperatingTable(folder.Write("a.csv", Points(dates)), 1 << 20);
+  };
+  const auto day_first = read({"03/04/2025 10:00", "yesterday", "13/04/2025 10:00"});
+  ASSERT_TRUE(day_first) << day_first.error().ToString();
+  ASSERT_EQ(day_first->size(), 3U);
+  EXPECT_EQ(DateText((*day_first)[0].time_s), "2025-04-03");
+  EXPECT_TRUE(std::isnan((*day_first)[1].time_s));
+  const auto month_first = read({"03/04/2025 10:00", "03/14/2025 10:00"});
+  ASSERT_TRUE(month_first) << month_first.error().ToString();
+  EXPECT_EQ(DateText((*month_first)[0].time_s), "2025-03-04");
+  EXPECT_FALSE(read({"03/04/2025 10:00", "04/04/2025 10:00"}));
+  EXPECT_FALSE(read({"13/04/2025 10:00", "03/14/2025 10:00"}));
+  EXPECT_FALSE(read({"yesterday", "2025-04-13 10:00"}));
 }
 
 using ::testing::HasSubstr;

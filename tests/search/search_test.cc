@@ -121,6 +121,14 @@ TEST_P(EveryAlgorithm, StopsForEachReasonAndSaysWhich) {
   });
   EXPECT_EQ(summary.termination, SearchTermination::kInterrupted);
   EXPECT_EQ(summary.iterations, 3);
+
+  // The observer of a large population is asked within iterations, too.
+  options.population = 5000;
+  summary = Search(Sphere, kBox, options, [](const Progress& progress) {
+    return progress.evaluations >= 6500 ? ObserverAction::kStop : ObserverAction::kContinue;
+  });
+  EXPECT_EQ(summary.termination, SearchTermination::kInterrupted);
+  EXPECT_LT(summary.evaluations, 8000);
 }
 
 TEST_P(EveryAlgorithm, SurvivesAnObjectiveOfNothingButNaN) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "error_of.h"
 #include "lyrefit/read/read_pvlib.h"
@@ -132,7 +133,7 @@ TEST(ReadTrend, CountsASweepWithoutATimeWithItsPlace) {
   const std::size_t comma = text.find(',', third);
   for (const auto& [date, why] :
        {std::pair{"", "expected the time of the sweep"},
-        {"03/04/2025", "expected a date such as 2025-03-12 10:30 in date, found \"03/04/2025\""}}) {
+        {"03/04/2025", "expected a date such as 2025-03-12 10:30, found \"03/04/2025\""}}) {
     const auto series =
         ReadFile(folder.Write("a.csv", text.substr(0, third) + date + text.substr(comma)));
     ASSERT_TRUE(series) << series.error().ToString();
@@ -141,6 +142,41 @@ TEST(ReadTrend, CountsASweepWithoutATimeWithItsPlace) {
     EXPECT_TRUE(std::isnan(series->rows.back().time_s));
     EXPECT_THAT(series->rows.back().reason, AllOf(HasSubstr("a.csv:3: "), HasSubstr(why)));
   }
+}
+
+TEST(ReadTrend, TellsDayFromMonthByAllDates) {
+  const TempFolder folder;
+  const std::vector<TimedSweep> sweeps = TenDays();
+  const std::string iso = SweepsText(sweeps);
+  const auto expected = ReadFile(folder.Write("iso.csv", iso));
+  ASSERT_TRUE(expected);
+  // From 2025-03-06 on: days up to 12 come first.
+  const auto with = [&](const char* date, int first_day) {
+    std::string text = iso;
+    for (int day = 0; day < 10; ++day) {
+      const std::string from = DateText(kMadeStart_s + day * kDay_s);
+      text = std::regex_replace(text, std::regex(from),
+                                fmt::format(fmt::runtime(date), first_day + day));
+    }
+    return folder.Write("a.csv", text);
+  };
+  for (const char* date : {"{:02d}/03/2025", "03/{:02d}/2025"}) {
+    const auto series = ReadFile(with(date, 6));
+    ASSERT_TRUE(series) << MessageOf(series);
+    ASSERT_EQ(series->rows.size(), expected->rows.size());
+    for (std::size_t i = 0; i < series->rows.size(); ++i) {
+      EXPECT_NEAR(series->rows[i].time_s, expected->rows[i].time_s - 6 * kDay_s, 0.6) << date;
+    }
+  }
+  const auto either = ReadFile(with("{:02d}/03/2025", 1));
+  ASSERT_FALSE(either);
+  EXPECT_THAT(either.error().message, HasSubstr("found \"01/03/2025"));
+  std::string both = iso;
+  both.replace(both.find("2025-03-13"), 10, "13/03/2025")
+      .replace(both.find("2025-03-14"), 10, "03/14/2025");
+  const auto mixed = ReadFile(folder.Write("b.csv", both));
+  ASSERT_FALSE(mixed);
+  EXPECT_THAT(mixed.error().message, HasSubstr("in the other order"));
 }
 
 TEST(ReadTrend, RefusesSweepsOfWhichNoneHasATime) {

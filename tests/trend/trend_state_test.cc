@@ -30,9 +30,10 @@ TrendSeries ThirtyDays() {
 }
 
 // The text of a state as of lines without checksums, which anybody may write.
+// A state as format 1, which has no checksums.
 std::string WithoutSums(const std::string& text) {
-  const std::regex sum(",(\"crc\":)?\"[0-9a-f]{8}\"([\\]}]\n)");
-  return std::regex_replace(text, sum, "$2");
+  const std::regex sum(",(\"crc\":)?\"[0-9a-f]{8}\"([\\]}]\n)"), format("_trend\":2");
+  return std::regex_replace(std::regex_replace(text, sum, "$2"), format, "_trend\":1");
 }
 
 int LinesIn(const std::string& path) {
@@ -179,10 +180,10 @@ TEST(TrendState, RefusesADamagedHead) {
     return folder.Write("b.state", text);
   };
   for (const auto& [from, to] :
-       {std::pair<const char*, const char*>{"{\"lyrefit_trend\":2", "{\"lyrefit_trend\":3"},
-        {"{\"lyrefit_trend\":2", "{\"lyrefit_trend\":1.5"},
-        {"{\"lyrefit_trend\":2", "{\"lyrefit_trend\":\"1\""},
-        {"{\"lyrefit_trend\":2", "{\"lyrefit_trend\""},
+       {std::pair<const char*, const char*>{"{\"lyrefit_trend\":1", "{\"lyrefit_trend\":3"},
+        {"{\"lyrefit_trend\":1", "{\"lyrefit_trend\":1.5"},
+        {"{\"lyrefit_trend\":1", "{\"lyrefit_trend\":\"1\""},
+        {"{\"lyrefit_trend\":1", "{\"lyrefit_trend\""},
         {"\"n\":1.0", "\"n\":\"one\""},
         {"\"n\":1.0", "\"n\":null"},
         {"\"cells_in_series\":60", "\"cells_in_series\":\"60\""},
@@ -260,6 +261,20 @@ TEST(TrendState, OfAnotherVersionIsOfTheSameLaw) {
   const auto written = AppendTrendState(folder.Write("b.state", text), series);
   ASSERT_TRUE(written) << written.error().ToString();
   EXPECT_EQ(*written, 0);
+}
+
+TEST(TrendState, OfFormat2HasChecksums) {
+  const TempFolder folder;
+  ASSERT_TRUE(AppendTrendState(folder.Path("a.state"), ThirtyDays()));
+  std::string text = FileText(folder.Path("a.state"));
+  const std::string crlf = std::regex_replace(text, std::regex("\n"), "\r\n");
+  for (const std::string& other : {WithoutSums(text).replace(17, 1, "2"), crlf}) {
+    const std::string path = folder.Write("b.state", other);
+    ExpectErrorAt(ReadTrendState(path), path, 1, 0, "this line has lost its checksum");
+    ExpectErrorAt(AppendTrendState(path, ThirtyDays()), path, 1, 0,
+                  "this line has lost its checksum");
+    EXPECT_EQ(FileText(path), other);
+  }
 }
 
 TEST(TrendState, ARowWithoutAnAnswerGivesWay) {

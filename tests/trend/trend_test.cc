@@ -311,6 +311,71 @@ TEST(FindTrend, EndsWhereAnotherDeviceBegins) {
   EXPECT_THAT(report.verdict, HasSubstr("of another device"));
 }
 
+TEST(FindTrend, WarnsOfADayOnWhichAllGetsWorse) {
+  MadeYear year = Days(120);
+  year.change = [](int day) {
+    MadeChange now;
+    if (day < 70) return now;
+    now.light = 0.95;
+    now.series = 1.25;
+    now.recombination = 1.25;
+    return now;
+  };
+  const TrendReport report = ReportOf(year);
+  EXPECT_NEAR(DayOf(report.last_s), 119.7, 1.1);
+  EXPECT_FALSE(report.onsets.empty());
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_THAT(report.warnings.back(),
+              AllOf(HasSubstr("On 2025-05-2"), HasSubstr("another device")));
+}
+
+TEST(FindTrend, CallsLightThatStaysAwayNoSnow) {
+  MadeYear year = Days(150);
+  year.change = [](int day) {
+    MadeChange now;
+    now.light = day < 70 ? 1 : 0.7;
+    return now;
+  };
+  const TrendReport report = ReportOf(year);
+  EXPECT_TRUE(report.covered.empty());
+  EXPECT_NEAR(EnergyLost(report, "light").value, 100 * 0.3 * 80 / 150, 1.5);
+  EXPECT_THAT(report.verdict, Not(HasSubstr("Covered")));
+}
+
+TEST(FindTrend, DoubtsALawOfNoJunction) {
+  TrendDevice device = MadeDevice();
+  const std::vector<TimedSweep> sweeps = MakeSweeps(device, Days(45));
+  const auto right = FindTrend(ReducedBy(device, sweeps));
+  ASSERT_TRUE(right);
+  EXPECT_TRUE(right->warnings.empty());
+  device.n = 0.5;
+  const auto wrong = FindTrend(ReducedBy(device, sweeps));
+  ASSERT_TRUE(wrong) << MessageOf(wrong);
+  ASSERT_FALSE(wrong->warnings.empty());
+  EXPECT_THAT(wrong->warnings[0], HasSubstr("n = 0.50, of no junction"));
+}
+
+TEST(FindTrend, CountsARowWithoutATimeAndNoMoreOfIt) {
+  const TrendDevice device = MadeDevice();
+  TrendSeries series = ReducedBy(device, MakeSweeps(device, Days(45)));
+  const auto without = FindTrend(series);
+  ASSERT_TRUE(without);
+  TrendRow untimed;
+  untimed.reason = "no date";
+  for (const std::size_t place : {std::size_t{9}, std::size_t{100}, series.rows.size()}) {
+    series.rows.insert(series.rows.begin() + static_cast<std::ptrdiff_t>(place), untimed);
+  }
+  const auto with = FindTrend(series);
+  ASSERT_TRUE(with);
+  EXPECT_EQ(with->rows, without->rows + 3);
+  EXPECT_EQ(with->states[static_cast<int>(TrendRowState::kUnusable)], 3);
+  ASSERT_EQ(with->reasons.size(), 1U);
+  EXPECT_EQ(with->reasons[0].rows, 3);
+  EXPECT_EQ(with->days, without->days);
+  EXPECT_EQ(with->verdict, without->verdict);
+  EXPECT_EQ(EnergyLost(*with, "total").value, EnergyLost(*without, "total").value);
+}
+
 // What readings of units and columns that were mistaken look like.
 struct Mistake {
   const char* name;
@@ -331,7 +396,12 @@ TEST(FindTrend, LeavesOutWhatNoDeviceGivesAndSaysWhen) {
       {"cells", [](IvCurve* curve) { curve->conditions.cells_in_series = 72; },
        "a sweep of 72 cells in series, the law is of 60"},
       {"light", [](IvCurve* curve) { curve->conditions.irradiance_W_m2 = 1e300; },
-       "an irradiance of 1e+300 W/m2"}};
+       "an irradiance of 1e+300 W/m2"},
+      {"strings",
+       [](IvCurve* curve) {
+         for (double& one : curve->current_A) one *= 2;
+       },
+       "2.0 times the current of the first sweeps in such light"}};
   const TrendDevice device = MadeDevice();
   for (const Mistake& mistake : mistakes) {
     std::vector<TimedSweep> sweeps = MakeSweeps(device, Days(90));

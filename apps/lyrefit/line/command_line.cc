@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <deque>
 #include <sstream>
 
@@ -43,9 +44,17 @@ Error CommandLineError(const CLI::ParseError& error) {
   return {message, {}};
 }
 
-std::string NotNegative(const std::string& text) {
-  return !text.empty() && text.front() == '-' ? "expected a whole number from 0, found " + text
-                                              : std::string();
+// What the parser would read as another whole number: it takes a leading zero for octal digits, and
+// what is too large for the largest one. `least_is_0`: it would take -1 for the largest one, too.
+std::string NotWhole(const std::string& text, bool least_is_0) {
+  const bool negative = !text.empty() && text.front() == '-';
+  if (negative && least_is_0) return "expected a whole number from 0, found " + text;
+  const std::string_view digits = std::string_view(text).substr(negative ? 1 : 0);
+  std::uint64_t value = 0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool leading = digits.size() > 1 && digits.front() == '0';
+  if (!leading && read.ec != std::errc::result_out_of_range) return "";
+  return "expected a whole number without leading zeros up to 18446744073709551615, found " + text;
 }
 
 }  // namespace
@@ -182,8 +191,13 @@ Flag VerbLine::Declare(void* option, FlagTarget target) {
 Flag VerbLine::AddOption(const std::string& name, FlagTarget target, const std::string& doc) {
   CLI::Option* const option =
       std::visit([&](auto* value) { return impl_->app->add_option(name, *value, doc); }, target);
-  // The parser would convert -1 to the largest unsigned number.
-  if (std::holds_alternative<std::uint64_t*>(target)) option->check(NotNegative, "");
+  const bool least_is_0 = std::holds_alternative<std::uint64_t*>(target);
+  const bool whole = least_is_0 || std::holds_alternative<int*>(target) ||
+                     std::holds_alternative<std::int64_t*>(target) ||
+                     std::holds_alternative<std::optional<int>*>(target);
+  if (whole) {
+    option->check([=](const std::string& text) { return NotWhole(text, least_is_0); }, "");
+  }
   return Declare(option, target);
 }
 

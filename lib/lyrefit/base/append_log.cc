@@ -102,6 +102,10 @@ Expected<std::optional<std::string>> LogReader::Next() {
   const bool has_sum = SumOf(line) != std::string_view::npos;
   if (line_ == 1) sealed_ = has_sum;
   if (line_ == 1 && !sealed_ && kind_.unsealed != nullptr) return Fail(kind_.unsealed, path_, 1);
+  const bool lost = kind_.sealed_begin != nullptr && line.rfind(kind_.sealed_begin, 0) == 0;
+  if (line_ == 1 && !sealed_ && lost) {
+    return Fail(fmt::format("this line has lost its checksum; {}", kind_.advice), path_, 1);
+  }
   if (!sealed_ && !has_sum) return line;
   std::optional<std::string> plain = sums_.Check(line);
   if (sealed_ && plain) return plain;

@@ -25,6 +25,8 @@ struct LogKind {
   const char* advice = nullptr;
   // The error message for a log without checksums, as older programs wrote it. Null: it is read.
   const char* unsealed = nullptr;
+  // A first line that starts with this text has a checksum. Null: any that has none is read.
+  const char* sealed_begin = nullptr;
 };
 
 // Running checksums over the lines of a log, each a JSON object or list. The last member of every

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace lyrefit {
 namespace {
@@ -80,7 +81,7 @@ class DateScanner {
 };
 
 // Three numbers to a date; see ReadDateTime.
-bool ReadDate(DateScanner* scan, Calendar* date) {
+bool ReadDate(DateScanner* scan, DateOrder order, Calendar* date) {
   std::array<int, 3> part{};
   int digits = 0;
   if (!scan->Whole(part.data(), &digits)) return false;
@@ -92,9 +93,15 @@ bool ReadDate(DateScanner* scan, Calendar* date) {
     *date = {part[0], part[1], part[2]};
   } else if (between == '.') {
     *date = {part[2], part[1], part[0]};
-  } else if (between == '/' && (part[0] > 12) != (part[1] > 12)) {
-    *date =
-        part[0] > 12 ? Calendar{part[2], part[1], part[0]} : Calendar{part[2], part[0], part[1]};
+  } else if (between == '/') {
+    if ((part[0] > 12) != (part[1] > 12)) {
+      const DateOrder own = part[0] > 12 ? DateOrder::kDayFirst : DateOrder::kMonthFirst;
+      if (order != DateOrder::kUnknown && order != own) return false;
+      order = own;
+    }
+    if (order == DateOrder::kUnknown) return false;
+    if (order == DateOrder::kMonthFirst) std::swap(part[0], part[1]);
+    *date = {part[2], part[1], part[0]};
   } else {
     return false;
   }
@@ -141,10 +148,17 @@ bool SkipOffset(DateScanner* scan) {
 
 }  // namespace
 
-std::optional<double> ReadDateTime(std::string_view text) {
+DateOrder OrderOfDate(std::string_view text) {
+  const bool day_first = ReadDateTime(text, DateOrder::kDayFirst).has_value();
+  const bool month_first = ReadDateTime(text, DateOrder::kMonthFirst).has_value();
+  if (day_first == month_first) return DateOrder::kUnknown;
+  return day_first ? DateOrder::kDayFirst : DateOrder::kMonthFirst;
+}
+
+std::optional<double> ReadDateTime(std::string_view text, DateOrder order) {
   DateScanner scan(text);
   Calendar date;
-  if (!ReadDate(&scan, &date)) return std::nullopt;
+  if (!ReadDate(&scan, order, &date)) return std::nullopt;
   double seconds = 0;
   if (!scan.Done()) {
     if (!scan.Take('T') && !scan.Take(' ')) return std::nullopt;

@@ -89,7 +89,9 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
   add("FF", fmt::format("{:+.3g} %", 100 * pair.ff_difference), "reverse minus forward, absolute");
   AddTable(std::move(table), &section);
   if (pair.sense == HysteresisSense::kNone) {
-    AddSentence("No hysteresis to speak of.", &section);
+    AddSentence(std::isfinite(pair.gap_percent) ? "No hysteresis to speak of."
+                                                : "Not decided: one direction does not reach 0 V.",
+                &section);
     return section;
   }
   const char* const more = pair.sense == HysteresisSense::kNormal ? "reverse" : "forward";

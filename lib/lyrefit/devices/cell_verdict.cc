@@ -58,6 +58,9 @@ std::string HysteresisVerdict(const CellReport& report) {
         " Hysteresis: a gap of {} % of Jsc; the index by power, {}, is below its noise.",
         Significant(pair.gap_percent, 2), PercentText(pair.index_power, 2));
   }
+  if (!std::isfinite(pair.gap_percent)) {
+    return " Hysteresis is not decided: one direction does not reach 0 V.";
+  }
   if (pair.sense == HysteresisSense::kNone) {
     return fmt::format(" No hysteresis: a gap of {} % of Jsc between the directions.",
                        Significant(pair.gap_percent, 2));

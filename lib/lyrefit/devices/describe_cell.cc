@@ -202,8 +202,8 @@ std::vector<CellSweep> VoidBySuperposition(const CellReport& report) {
   for (const int i : BrightestSweeps(report)) {
     if (!sweeps[i].diode()) continue;
     sweeps[i].void_because.emplace_back(
-        "lit and dark curve do not superpose, whatever the factor of the dark current: a barrier "
-        "or collection that depends on voltage may be in n and Rs");
+        "lit and dark curve do not superpose, whatever the factor of the dark current: a lamp that "
+        "drifted, a barrier or collection that depends on voltage may be in n and Rs");
   }
   return sweeps;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 
 #include "lyrefit/base/number_text.h"
@@ -109,6 +110,23 @@ const char* HowToAdd(int kind) {
                 : "";
 }
 
+// The order that the dates of the rows tell.
+Expected<DateOrder> OrderOfDates(LineReader lines, const OperatingLayout& layout,
+                                 const std::string& path) {
+  TableRow row(layout.columns, layout.delimiter, path);
+  DateOrder order = DateOrder::kUnknown;
+  for (std::string_view line; lines.NextContent(&line);) {
+    TRY(row.Take(line, lines.number()));
+    const DateOrder own = OrderOfDate(row[layout.at[kAtTime]]);
+    if (own == DateOrder::kUnknown || own == order) continue;
+    if (order != DateOrder::kUnknown) {
+      return row.RefuseField(layout.at[kAtTime], "day and month in the order of the rows before");
+    }
+    order = own;
+  }
+  return order;
+}
+
 Expected<double> NumberOrMissing(TableRow* row, int field) {
   const std::string_view text = TrimBlanks((*row)[field]);
   if (text.empty() || IsMissingWord(text)) return kUnknown;
@@ -137,13 +155,18 @@ Expected<std::vector<OperatingReading>> ReadOperatingTable(const std::string& pa
                 path, lines.number(), 1);
   }
   TableRow row(layout.columns, layout.delimiter, path);
+  TRY(const DateOrder order, OrderOfDates(lines, layout, path));
+  constexpr DateOrder kEither = DateOrder::kDayFirst;
   std::vector<OperatingReading> points;
   while (lines.NextContent(&line)) {
     TRY(row.Take(line, lines.number()));
     OperatingReading point;
-    const auto time = ReadDateTime(row[layout.at[kAtTime]]);
-    if (!time) return row.RefuseField(layout.at[kAtTime], "a date such as 2025-03-12 10:30");
-    point.time_s = *time;
+    // A row without a date is counted, unless its day and month are not told apart.
+    const std::string_view date = row[layout.at[kAtTime]];
+    point.time_s = ReadDateTime(date, order).value_or(kUnknown);
+    if (!std::isfinite(point.time_s) && (points.empty() || ReadDateTime(date, kEither))) {
+      return row.RefuseField(layout.at[kAtTime], "a date such as 2025-03-12 10:30");
+    }
     TRY(point.irradiance_W_m2, NumberOrMissing(&row, layout.at[kAtIrradiance]));
     TRY(point.temperature_C, NumberOrMissing(&row, layout.at[kAtTemperature]));
     TRY(point.voltage_V, NumberOrMissing(&row, layout.at[kAtVoltage]));

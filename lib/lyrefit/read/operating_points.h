@@ -23,8 +23,8 @@ struct OperatingReading {
 // without a unit: time, date, timestamp, datetime or tmst; an irradiance and a temperature as
 // read/column.h knows them; vmp, v_mp, vmpp, vdc or voltage; imp, i_mp, impp, idc or current. Other
 // columns are ignored. Of several inputs of an inverter (Vpv1, Ipv1, Vpv2, ...) `input` names one, as
-// `--column` does. Errors, with line and column: a column that is missing; a time that is no
-// date; a text that is neither a number nor a word for a missing value.
+// `--column` does. Errors, with line and column: a column that is missing; a first time that
+// is no date, or one whose day and month no row tells apart; a text that is neither a number nor a word for a missing value.
 Expected<std::vector<OperatingReading>> ReadOperatingTable(const std::string& path,
                                                            std::int64_t largest_file_bytes,
                                                            const std::string& input = "");

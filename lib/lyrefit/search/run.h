@@ -28,6 +28,9 @@ class SearchRun {
     const double value = objective_(x);
     ++summary_.evaluations;
     if (summary_.evaluations >= options_.max_evaluations) Stop(SearchTermination::kEvaluations);
+    const std::int64_t since = summary_.evaluations - last_.evaluations;
+    if (since >= kAskAfter && since % kAskAfter == 0)
+      AskObserver(last_.iteration, options_.iterations);
     return value == value ? value : kInfinity;
   }
 
@@ -47,6 +50,10 @@ class SearchRun {
   SearchSummary Finish();
 
  private:
+  // Evaluations within an iteration of a large population after which the observer is asked.
+  static constexpr std::int64_t kAskAfter = 1024;
+
+  void AskObserver(std::int64_t t, std::int64_t planned);
   void Stop(SearchTermination why) {
     if (!stopped()) summary_.termination = why;
   }

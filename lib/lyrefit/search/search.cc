@@ -86,13 +86,16 @@ void SearchRun::EndIteration(std::int64_t t, std::int64_t planned) {
     Stop(SearchTermination::kPatience);
   }
   if (t >= planned) Stop(SearchTermination::kIterations);
+  AskObserver(t, planned);
+}
+
+void SearchRun::AskObserver(std::int64_t t, std::int64_t planned) {
   const bool timed = options_.time_limit_s < kInfinity;
   if (!timed && !observer_) return;
   const double seconds = Seconds();
   if (timed && seconds >= options_.time_limit_s) Stop(SearchTermination::kTimeLimit);
-  if (StopRequested(observer_, {"search", t, planned, summary_.evaluations, best, seconds})) {
-    Stop(SearchTermination::kInterrupted);
-  }
+  const Progress progress = {"search", t, planned, summary_.evaluations, f_[best_], seconds};
+  if (StopRequested(observer_, progress)) Stop(SearchTermination::kInterrupted);
 }
 
 // Adds an elite unless there are enough or one is close.

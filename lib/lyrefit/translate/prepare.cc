@@ -65,7 +65,8 @@ Expected<void> RequireConditions(const IvCurve& curve) {
     return Fail("nobody stated the cell temperature the curve was taken at: say --temperature-C",
                 curve.source);
   }
-  if (!(curve.conditions.irradiance_W_m2 > 0)) {
+  constexpr double kDark_W_m2 = 0.01;  // a full moon gives a thousandth of a W/m2
+  if (!(curve.conditions.irradiance_W_m2 > kDark_W_m2)) {
     return Fail("a dark curve is translated by no procedure", curve.source);
   }
   return {};

@@ -21,6 +21,7 @@ constexpr double kShortBlocks = 40;
 constexpr double kSteppedTimes = 4;      // misfit of a stepped sweep over the median
 constexpr double kSteppedLeast = 0.004;  // and of Isc
 constexpr double kCovered = 0.85;        // light of a covered device, of its 90 % quantile
+constexpr double kLongestCovered_s = 60 * kDay_s;  // what takes light for longer is no snow
 
 // Days of weather to whose mean a sky is compared: a dull one may last a day, dirt changes slowly.
 int SpellOf(const TrendRow& row) {
@@ -82,10 +83,17 @@ void MarkCovered(std::vector<TrendRow>* rows) {
   }
   std::sort(lights.begin(), lights.end());
   const double least = Quantile(lights, 0.9) + std::log(kCovered);
-  for (TrendRow& row : *rows) {
-    if (!CountsInBlocks(row) || !(clear(row) < least)) continue;
-    row.state = TrendRowState::kStepped;
-    row.covered = true;
+  for (auto row = rows->begin(); row != rows->end();) {
+    const auto end = std::find_if(row, rows->end(), [&](const TrendRow& one) {
+      return CountsInBlocks(one) && !(clear(one) < least);
+    });
+    const bool passes = row == end || end[-1].time_s - row->time_s < kLongestCovered_s;
+    for (; row != end; ++row) {
+      if (!CountsInBlocks(*row) || !passes) continue;
+      row->state = TrendRowState::kStepped;
+      row->covered = true;
+    }
+    if (row != rows->end()) ++row;
   }
 }
 
@@ -252,6 +260,10 @@ double TrendBlocks::LightOn(const TrendRow& row) const {
 
 TrendBlocks MakeBlocks(const TrendDevice& device, std::vector<TrendRow> rows,
                        const TrendOptions& options) {
+  const auto timed = std::remove_if(rows.begin(), rows.end(),
+                                    [](const TrendRow& row) { return !std::isfinite(row.time_s); });
+  const std::int64_t untimed = rows.end() - timed;
+  rows.erase(timed, rows.end());
   std::stable_sort(rows.begin(), rows.end(), [](const TrendRow& one, const TrendRow& other) {
     return one.time_s < other.time_s;
   });
@@ -260,6 +272,7 @@ TrendBlocks MakeBlocks(const TrendDevice& device, std::vector<TrendRow> rows,
   MarkStepped(&rows);
   MarkCovered(&rows);
   TrendBlocks blocks = CutBlocks(device, rows);
+  blocks.states[static_cast<std::size_t>(TrendRowState::kUnusable)] += untimed;
   if (const auto end_s = EndOfReference(blocks.rows, options.reference_days)) {
     blocks.reference_end_s = *end_s;
     blocks.reference_capped = blocks.rows.back().time_s - blocks.rows.front().time_s <

@@ -126,6 +126,12 @@ double LostByChange(const TrendBlocks& blocks, const std::string& name, double c
   return 100 * (1 - after / before);
 }
 
+double LostByChange(const TrendBlocks& blocks, const std::string& name, const TrendChange& change) {
+  const double last_s = blocks.rows.back().time_s;
+  const double years = change.onset ? (last_s - change.time_s) / (kYear_days * kDay_s) : 1;
+  return LostByChange(blocks, name, change.size.value * years);
+}
+
 double PercentPerVolt(const TrendBlocks& blocks) {
   constexpr double kStep_V = 0.01;
   return LostByChange(blocks, "recombination", kStep_V) / kStep_V;

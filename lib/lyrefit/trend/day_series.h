@@ -75,6 +75,8 @@ double PowerAt(const TrendBlocks& blocks, TrendParameter what = kTrendVoltage, d
 
 // Power in % that a change of a quantity to the worse takes: of `name`, in its unit.
 double LostByChange(const TrendBlocks& blocks, const std::string& name, double change);
+// The same of a found change; of an onset by the end of the series.
+double LostByChange(const TrendBlocks& blocks, const std::string& name, const TrendChange& change);
 
 // Change of power in % by a lost volt.
 double PercentPerVolt(const TrendBlocks& blocks);

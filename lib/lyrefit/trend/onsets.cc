@@ -141,12 +141,14 @@ Cause CauseOf(const TrendBlocks& blocks, const TrendReport& report, const TrendQ
   }
   if (quantity.name == "recombination") {
     return DeviceCause(
-        "growing_recombination", "growing recombination",
+        "growing_recombination",
+        change.onset ? "growing recombination" : "a step of the recombination",
         "the voltage falls by more than light and temperature explain: degradation of the "
         "cells, or an error of the temperature sensor",
         "compare the sensor with another one; electroluminescence");
   }
-  return DeviceCause("growing_shunt", "growing shunt conductance",
+  return DeviceCause("growing_shunt",
+                     change.onset ? "growing shunt conductance" : "a step of the shunt conductance",
                      "cells leak: PID in its beginning, cracks or hot spots",
                      "thermography; electroluminescence at low current");
 }
@@ -260,56 +262,66 @@ const TrendChange* LargeStepOn(const TrendReport& report, const TrendQuantity& q
   return nullptr;
 }
 
-// Whether a shunt grew before a day: then all parameters change as it does.
-bool ShuntGrowsBefore(const TrendReport& report, double time_s) {
-  for (const TrendQuantity& quantity : report.quantities) {
+// From when on a shunt takes `least_percent` of the power or more; infinity: never.
+double ShuntGrowsFrom(const TrendBlocks& blocks, const std::vector<TrendQuantity>& quantities,
+                      double least_percent) {
+  double begin_s = kInfinity;
+  for (const TrendQuantity& quantity : quantities) {
     if (quantity.name != "conductance_shunt") continue;
     for (const TrendChange& change : quantity.changes) {
-      if (change.size.value > 0 && change.time_s < time_s - 3 * kDay_s) return true;
+      const bool matters = LostByChange(blocks, quantity.name, change) >= least_percent;
+      if (matters) begin_s = std::min(begin_s, change.time_s);
     }
   }
-  return false;
+  return begin_s;
 }
 
 }  // namespace
 
-std::optional<ExchangedDevice> FindExchange(const TrendBlocks& blocks, const TrendReport& report) {
+std::optional<ExchangedDevice> FindExchange(const TrendBlocks& blocks, const TrendReport& report,
+                                            double least_percent) {
   constexpr std::size_t kLeastChanged = 3;
   constexpr double kGreat_V = 0.02;  // of a cell: no device gains as much, no sensor errs by it
   if (report.source != TrendSource::kSweeps) return std::nullopt;
+  // A shunt changes all parameters as it grows.
+  const double shunt_s = ShuntGrowsFrom(blocks, report.quantities, least_percent) + 3 * kDay_s;
+  std::optional<ExchangedDevice> possible;
   for (const TrendQuantity& first : report.quantities) {
     for (const TrendChange& at : first.changes) {
-      if (at.onset || ShuntGrowsBefore(report, at.time_s)) continue;
-      ExchangedDevice found{at.time_s, {}};
-      bool better = false, great = false;
+      if (at.onset || at.time_s > shunt_s) continue;
+      ExchangedDevice found{at.time_s, {}, false};
+      bool great = false;
       for (const TrendQuantity& one : report.quantities) {
         const TrendChange* const step = LargeStepOn(report, one, at.time_s);
         if (step == nullptr) continue;
         found.changed.push_back(fmt::format(
             "{} {:+.3g} {}", one.title.substr(0, one.title.find(',')), step->size.value, one.unit));
         found.time_s = std::min(found.time_s, step->time_s);
-        better |= one.name != "light" && step->size.high_95 < 0;
+        found.certain |= one.name != "light" && step->size.high_95 < 0;
         great |=
             one.name == "recombination" && step->size.high_95 < -kGreat_V * report.cells_in_series;
       }
       const std::size_t least = great ? kLeastChanged - 1 : kLeastChanged;
-      if (better && found.changed.size() >= least && !SubstringsChange(blocks, found.time_s)) {
-        return found;
-      }
+      if (found.changed.size() < least || SubstringsChange(blocks, found.time_s)) continue;
+      if (found.certain) return found;
+      if (!possible) possible = std::move(found);
     }
   }
-  return std::nullopt;
+  return possible;
 }
 
-std::vector<TrendQuantity> WithoutChangesByShunt(std::vector<TrendQuantity> quantities) {
+std::vector<TrendQuantity> WithChangesThatMatter(std::vector<TrendQuantity> quantities,
+                                                 const TrendBlocks& blocks, double least_percent) {
   constexpr double kBefore_s = 10 * kDay_s;
-  double begin_s = kInfinity;
-  for (const TrendQuantity& quantity : quantities) {
-    if (quantity.name != "conductance_shunt") continue;
-    for (const TrendChange& change : quantity.changes) {
-      if (change.size.value > 0) begin_s = std::min(begin_s, change.time_s);
-    }
+  for (TrendQuantity& quantity : quantities) {
+    auto& changes = quantity.changes;
+    const auto small = [&](const TrendChange& change) {
+      return quantity.monitored &&
+             std::fabs(LostByChange(blocks, quantity.name, change)) < least_percent;
+    };
+    changes.erase(std::remove_if(changes.begin(), changes.end(), small), changes.end());
   }
+  const double begin_s = ShuntGrowsFrom(blocks, quantities, least_percent);
   for (TrendQuantity& quantity : quantities) {
     if (quantity.name != "resistance_series" && quantity.name != "mismatch") continue;
     auto& changes = quantity.changes;
@@ -322,17 +334,12 @@ std::vector<TrendQuantity> WithoutChangesByShunt(std::vector<TrendQuantity> quan
   return quantities;
 }
 
-std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport& report,
-                                   double least_percent) {
+std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport& report) {
   std::vector<TrendOnset> onsets;
   for (const TrendQuantity& quantity : report.quantities) {
     if (!quantity.monitored) continue;
     for (const TrendChange& change : quantity.changes) {
       if (!(change.size.value > 0)) continue;  // to the better, or the end of a growth
-      const double years =
-          change.onset ? (report.last_s - change.time_s) / (kYear_days * kDay_s) : 1;
-      const double lost = LostByChange(blocks, quantity.name, change.size.value * years);
-      if (!(lost >= least_percent)) continue;
       // What grows slowly in operating points may be a shunt.
       if (change.onset && report.source == TrendSource::kOperatingPoints) continue;
       onsets.push_back({quantity.name, change.time_s, change.earliest_s, change.latest_s,

@@ -156,7 +156,7 @@ FoundQuantity FindQuantity(const TrendBlocks& blocks, TrendSource source,
   quantity.reference = ReferenceMean(blocks, own);
   if (quantity.name == "recombination") quantity.reference = 0;  // by its definition
   const double drift = DriftOf(quantity.name, blocks, options);
-  const Eigen::VectorXd mean = MeanRate(own.series, found, kind.followed == kTrendLight);
+  const Eigen::VectorXd mean = MeanRate(own.series, found, !kind.monitored);
   const double rate = mean.dot(fit.coefficients);
   const double error =
       std::hypot(std::sqrt(mean.dot(fit.covariance * mean)), drift, kScaleError * rate);
@@ -224,7 +224,9 @@ std::vector<TrendQuantity> WithRatesBeforeShunt(std::vector<TrendQuantity> quant
   };
   double begin_s = kInfinity;
   for (const TrendChange& change : named("conductance_shunt")->changes) {
-    if (change.size.value > 0) begin_s = std::min(begin_s, change.earliest_s);
+    const bool grows =
+        LostByChange(blocks, "conductance_shunt", change) >= options.least_onset_percent;
+    if (grows) begin_s = std::min(begin_s, change.earliest_s);
   }
   if (!std::isfinite(begin_s)) return quantities;
   for (const char* name : {"resistance_series", "recombination"}) {

@@ -37,23 +37,27 @@ struct TrendLosses {
 TrendLosses FindLosses(const std::vector<TrendQuantity>& quantities, const TrendBlocks& blocks,
                        TrendSource source, const TrendOptions& options);
 
-// The quantities without changes of series resistance and mismatch after the shunt began to grow:
-// uneven shunts bend the knee as these do.
-std::vector<TrendQuantity> WithoutChangesByShunt(std::vector<TrendQuantity> quantities);
+// The quantities without changes that take or give less than `least_percent` of the power, but of
+// light; and without those of series resistance and mismatch after the shunt began to grow: uneven
+// shunts bend the knee as these do.
+std::vector<TrendQuantity> WithChangesThatMatter(std::vector<TrendQuantity> quantities,
+                                                 const TrendBlocks& blocks, double least_percent);
 
 // Another device from a day on.
 struct ExchangedDevice {
   double time_s = kUnknown;          // of its first day
   std::vector<std::string> changed;  // "series resistance -0.0256 ohm"
+  bool certain = false;              // one changed to the better by more than a device's own can
 };
 
-// A day on which three quantities or more step at once, one of them to the better by more than a
-// device does by itself. None: there is no such day. Needs the parameters among the quantities.
-std::optional<ExchangedDevice> FindExchange(const TrendBlocks& blocks, const TrendReport& report);
+// A day on which three quantities or more step at once, none by a shunt that takes `least_percent`
+// of the power; the first certain one, else the first one. None: there is no such day. Needs the
+// parameters among the quantities.
+std::optional<ExchangedDevice> FindExchange(const TrendBlocks& blocks, const TrendReport& report,
+                                            double least_percent);
 
-// Changes to the worse of a parameter or of mismatch that take `least_percent` of the power, with
-// what they may be. Needs quantities and losses.
-std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport& report,
-                                   double least_percent);
+// Changes to the worse of a parameter or of mismatch, with what they may be. Needs quantities and
+// losses.
+std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport& report);
 
 }  // namespace lyrefit

@@ -52,15 +52,20 @@ std::optional<double> DateInName(std::string_view name) {
   return std::nullopt;
 }
 
-Expected<double> TimeOf(const std::map<std::string, std::string>& beside, const std::string& id,
-                        const std::string& where) {
+// The date beside a sweep; null: there is none.
+const std::string* DateBeside(const std::map<std::string, std::string>& beside) {
   for (const char* name : kTimeNames) {
     const auto found = beside.find(name);
-    if (found == beside.end()) continue;
-    const auto time = ReadDateTime(found->second);
-    if (time) return *time;
-    return Fail(fmt::format("expected a date such as 2025-03-12 10:30 in {}, found \"{}\"", name,
-                            found->second),
+    if (found != beside.end()) return &found->second;
+  }
+  return nullptr;
+}
+
+Expected<double> TimeOf(const std::string* date, DateOrder order, const std::string& id,
+                        const std::string& where) {
+  if (date != nullptr) {
+    if (const auto time = ReadDateTime(*date, order)) return *time;
+    return Fail(fmt::format("expected a date such as 2025-03-12 10:30, found \"{}\"", *date),
                 where);
   }
   if (const auto time = DateInName(id)) return *time;
@@ -99,6 +104,22 @@ class SeriesReader {
     return {};
   }
 
+  // Takes a sweep with the date beside it; without a readable one as broken.
+  Expected<void> TakeDated(IvCurve curve, const std::string* date, const std::string& id,
+                           const std::string& where) {
+    if (date != nullptr) TRY(LearnOrder(*date, where));
+    const Expected<double> time = TimeOf(date, order_, id, where);
+    if (time) return Take(std::move(curve), *time);
+    if (date != nullptr && ReadDateTime(*date, DateOrder::kDayFirst)) {
+      undated_.push_back({std::move(curve), *date, time.error()});
+    } else {
+      TakeUntimed(time.error());
+    }
+    return {};
+  }
+
+  DateOrder order() const { return order_; }
+
   void TakeBroken(double time_s, const std::string& reason) {
     TrendRow row;
     row.time_s = time_s;
@@ -113,6 +134,7 @@ class SeriesReader {
   }
 
   Expected<TrendSeries> End() {
+    for (const Undated& one : undated_) TakeUntimed(one.error);
     if (untimed_ && waiting_.empty() && series_.rows.empty()) return tl::unexpected(*untimed_);
     if (!known_) TRY(FindLaw());
     Reduce();
@@ -121,6 +143,31 @@ class SeriesReader {
   }
 
  private:
+  // The sweeps whose dates told no order are taken once another date tells it.
+  Expected<void> LearnOrder(const std::string& date, const std::string& where) {
+    const DateOrder own = OrderOfDate(date);
+    if (own == DateOrder::kUnknown || own == order_) return {};
+    if (order_ != DateOrder::kUnknown) {
+      return Fail(fmt::format("dates before have day and month in the other order, found \"{}\": "
+                              "write dates as 2025-03-12",
+                              date),
+                  where);
+    }
+    order_ = own;
+    for (Undated& one : undated_) {
+      TRY(Take(std::move(one.curve), ReadDateTime(one.date, order_).value_or(kUnknown)));
+    }
+    undated_.clear();
+    return {};
+  }
+
+  // A sweep whose day and month may be either, while no date has told the order.
+  struct Undated {
+    IvCurve curve;
+    std::string date;
+    Error error;
+  };
+
   Expected<void> FindLaw() {
     TRY(series_, SeriesOfSweeps(waiting_, options_));
     known_ = true;
@@ -138,8 +185,10 @@ class SeriesReader {
   std::vector<TimedSweep> waiting_;
   std::vector<TrendRow> broken_;
   std::optional<Error> untimed_;  // of the first sweep without a time
-  bool known_ = false;            // whether the law is
-  bool ordered_ = true;           // the sweeps that wait for it are in order of time
+  DateOrder order_ = DateOrder::kUnknown;
+  std::vector<Undated> undated_;
+  bool known_ = false;   // whether the law is
+  bool ordered_ = true;  // the sweeps that wait for it are in order of time
 };
 
 bool IsSetFolder(const std::string& input) {
@@ -153,12 +202,8 @@ Expected<void> ReadSet(const std::string& input, const TrendReadOptions& reading
   for (IvCurve& curve : set.curves) {
     std::map<std::string, std::string> beside;
     if (!curve.notes.date.empty()) beside["date"] = curve.notes.date;
-    const auto time = TimeOf(beside, curve.name, input + ", curve " + curve.name);
-    if (time) {
-      TRY(reader->Take(std::move(curve), *time));
-    } else {
-      reader->TakeUntimed(time.error());
-    }
+    const std::string name = curve.name;
+    TRY(reader->TakeDated(std::move(curve), DateBeside(beside), name, input + ", curve " + name));
   }
   for (const RejectedCurve& rejected : set.rejected) {
     reader->TakeBroken(kUnknown, rejected.error.message);
@@ -177,16 +222,13 @@ Expected<bool> ReadStream(const std::vector<std::string>& inputs, const TrendRea
     if (!item) return false;
     BatchCurve read = source->Read(*item);
     if (!read.curve && StoppableReads::Stopped()) return true;
-    const Expected<double> time = TimeOf(read.beside, read.id, item->where);
+    const std::string* const date = DateBeside(read.beside);
     if (!read.curve) {
+      const Expected<double> time = TimeOf(date, reader->order(), read.id, item->where);
       reader->TakeBroken(time.value_or(kUnknown), read.curve.error().message);
       continue;
     }
-    if (time) {
-      TRY(reader->Take(std::move(*read.curve), *time));
-    } else {
-      reader->TakeUntimed(time.error());
-    }
+    TRY(reader->TakeDated(std::move(*read.curve), date, read.id, item->where));
     if (progress.Step()) return true;
   }
 }

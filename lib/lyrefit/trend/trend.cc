@@ -125,7 +125,8 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
   report.covered = FindCoveredDays(blocks);
   report.dull_sky_percent = DullSkyPercent(blocks);
   report.quantities = std::move(found.quantities);
-  if (const auto exchange = FindExchange(blocks, report)) {
+  const auto exchange = FindExchange(blocks, report, options.least_onset_percent);
+  if (exchange && exchange->certain) {
     const double begin_s = blocks.length_s * std::floor(exchange->time_s / blocks.length_s);
     const TrendSeries first = Until(series, begin_s);
     if (auto of_first = FindTrend(first, options, observer)) {
@@ -138,11 +139,13 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
   TrendLosses losses = FindLosses(report.quantities, blocks, series.source, options);
   report.losses = std::move(losses.losses);
   report.loss_days = std::move(losses.days);
-  report.quantities = WithoutChangesByShunt(std::move(report.quantities));
-  report.onsets = FindOnsets(blocks, report, options.least_onset_percent);
+  report.quantities =
+      WithChangesThatMatter(std::move(report.quantities), blocks, options.least_onset_percent);
+  report.onsets = FindOnsets(blocks, report);
   report.verdict = VerdictOf(report, options);
   report.not_decided = NotDecided(report);
   report.warnings = FindWarnings(report);
+  if (exchange) report.warnings.push_back(ExchangeWarning(*exchange));
   if (progress.Step()) return Fail("interrupted");
   report.seconds = SecondsSince(start);
   return report;

@@ -20,6 +20,8 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kLeastReadings = 8;
+constexpr double kMostLight = 1.5;  // of what the law lets expect in light that is no dusk
+constexpr double kBright_W_m2 = 200;
 
 bool IsSweep(const IvCurve& curve) {
   return curve.size() >= kLeastReadings && curve.irradiance_known && curve.temperature_known &&
@@ -306,6 +308,14 @@ TrendRow ReduceSweep(const TrendDevice& device, const IvCurve& curve, double tim
                     fit.diode_2_A * half / expected_A, fit.shunt_conductance_S * left};
   row.misfit = fit.rms_A / row.isc_A;
   row.state = TrendRowState::kUsed;
+  const double times = fit.photocurrent_A / expected_A;
+  if (times > kMostLight && row.irradiance_W_m2 > kBright_W_m2) {
+    row.state = TrendRowState::kDoubtful;
+    row.reason = fmt::format(
+        "{:.1f} times the current of the first sweeps in such light: they or the light sensor "
+        "were in shade, or these are of another number of strings",
+        times);
+  }
   if (!std::isfinite(voc)) {
     row.state = TrendRowState::kUnusable;
     row.reason = "no diode model describes it";

@@ -36,7 +36,9 @@ constexpr LogKind kStateKind = {"state of a trend",
                                 "the state of a trend",
                                 kStateBegin,
                                 "expected the state of a trend, found another file",
-                                "begin another state"};
+                                "begin another state",
+                                nullptr,
+                                "{\"lyrefit_trend\":2"};
 // {"lyrefit_trend":2, ...}. Format 1 has neither checksums nor the time from which its law is.
 constexpr int kStateFormat = 2;
 

@@ -13,6 +13,7 @@ namespace lyrefit {
 namespace {
 
 constexpr double kDullMatters = 0.5;  // % of the energy
+constexpr double kLeastIdeality = 0.8, kMostIdeality = 2.2;
 
 bool Decided(const Ranged& one) { return one.low_95 > 0 || one.high_95 < 0; }
 
@@ -66,7 +67,7 @@ std::string PowerVerdict(const TrendReport& report, const TrendOptions& options)
       largest = &loss;
     }
   }
-  if (largest != nullptr) {
+  if (largest != nullptr && energy.low_95 > 0) {
     text += LargestPart(report, *largest);
   } else if (!Decided(energy)) {
     text += ". This interval shows no loss";
@@ -144,6 +145,12 @@ std::string ExchangeWarning(const ExchangedDevice& exchange) {
   for (const std::string& one : exchange.changed) {
     changed += (changed.empty() ? "" : ", ") + one;
   }
+  if (!exchange.certain) {
+    return fmt::format(
+        "On {} at once {}: several faults of one day, or from then on another device. Compare its "
+        "serial number.",
+        DateText(exchange.time_s), changed);
+  }
   return fmt::format(
       "From {} on the measurements are of another device, or this one was repaired: at once {}. "
       "What follows is of the days before. Give each device a file of its own.",
@@ -209,6 +216,12 @@ std::vector<std::string> FindWarnings(const TrendReport& report) {
   if (report.interrupted) {
     warnings.push_back(
         fmt::format("Interrupted: what follows is of the first {} measurements.", report.rows));
+  }
+  if (report.ideality < kLeastIdeality || report.ideality > kMostIdeality) {
+    warnings.push_back(
+        fmt::format("The law has n = {:.2f}, of no junction: the sweeps of the reference days are "
+                    "shaded, or the number of cells is not {}.",
+                    report.ideality, report.cells_in_series));
   }
   const std::int64_t unusable = report.states[static_cast<int>(TrendRowState::kUnusable)];
   if (unusable * 5 > report.rows) {

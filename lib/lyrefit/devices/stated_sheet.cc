@@ -77,6 +77,10 @@ Expected<ModuleSheet> Complete(const StatedSheet& stated) {
   if (module.name.empty()) module.name = "module";
   if (stated.gamma.empty()) return module;
   TRY(const PrintedValue gamma, ParsePrinted("--gamma", stated.gamma, 100));
+  constexpr double kMost = 5;  // in size: of no cell
+  if (!(std::fabs(gamma.value) <= kMost)) {
+    return Fail(fmt::format("--gamma: {} %/K is of no device", stated.gamma));
+  }
   sheet.gamma_pmp_percent_K = gamma.value;
   return module;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
@@ -119,9 +120,10 @@ Expected<void> ValidateTranslateOptions(const TranslateOptions& options) {
     return Fail(
         "irradiance of the back counts by the bifaciality of the module: say --bifaciality too");
   }
-  for (const auto* value : {&c.alpha_A_K, &c.alpha_percent_K, &c.beta_V_K}) {
-    if (!*value || std::fabs(**value) <= kMostPerKelvin) continue;
-    return Fail(fmt::format("a coefficient of {:g} per kelvin is of no device", **value));
+  for (const auto& [name, value] :
+       {std::pair{"alpha", c.alpha_A_K}, {"alpha", c.alpha_percent_K}, {"beta", c.beta_V_K}}) {
+    if (!value || std::fabs(*value) <= kMostPerKelvin) continue;
+    return Fail(fmt::format("{} of {:g} per kelvin is of no device", name, *value));
   }
   if (c.beta_percent_K && !(std::fabs(*c.beta_percent_K) < 2)) {
     return Fail(fmt::format("beta of {:g} %/K is of no device", *c.beta_percent_K));

@@ -137,6 +137,12 @@ double PercentPerVolt(const TrendBlocks& blocks) {
   return LostByChange(blocks, "recombination", kStep_V) / kStep_V;
 }
 
+double SeasonOf(const std::string& name, const TrendBlocks& blocks, double days) {
+  constexpr double kSeason_K = 0.3;
+  if (name != "recombination" || days >= kLeastForRate_days) return 0;
+  return kSeason_K * VoltsPerKelvin(*blocks.device);
+}
+
 double DriftOf(const std::string& name, const TrendBlocks& blocks, const TrendOptions& options) {
   const double light = options.irradiance_drift_percent;
   const double volts = VoltsPerKelvin(*blocks.device) * options.temperature_drift_K;

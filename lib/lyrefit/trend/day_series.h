@@ -81,6 +81,10 @@ double LostByChange(const TrendBlocks& blocks, const std::string& name, const Tr
 // Change of power in % by a lost volt.
 double PercentPerVolt(const TrendBlocks& blocks);
 
+// Standard deviation of what a season adds to a series of `days`, less than a year, in the quantity's
+// unit: an error of the cells' temperature that follows the light.
+double SeasonOf(const std::string& name, const TrendBlocks& blocks, double days);
+
 // Standard deviation of what drifting instruments add in a year, in the quantity's unit.
 double DriftOf(const std::string& name, const TrendBlocks& blocks, const TrendOptions& options);
 

@@ -155,7 +155,8 @@ FoundQuantity FindQuantity(const TrendBlocks& blocks, TrendSource source,
   const TimeFit& fit = found.fit;
   quantity.reference = ReferenceMean(blocks, own);
   if (quantity.name == "recombination") quantity.reference = 0;  // by its definition
-  const double drift = DriftOf(quantity.name, blocks, options);
+  const double drift = std::hypot(DriftOf(quantity.name, blocks, options),
+                                  SeasonOf(quantity.name, blocks, SpanDays(own.series)) / years);
   const Eigen::VectorXd mean = MeanRate(own.series, found, !kind.monitored);
   const double rate = mean.dot(fit.coefficients);
   const double error =

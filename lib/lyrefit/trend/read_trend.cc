@@ -203,7 +203,8 @@ Expected<void> ReadSet(const std::string& input, const TrendReadOptions& reading
     std::map<std::string, std::string> beside;
     if (!curve.notes.date.empty()) beside["date"] = curve.notes.date;
     const std::string name = curve.name;
-    TRY(reader->TakeDated(std::move(curve), DateBeside(beside), name, input + ", curve " + name));
+    const std::string where = fmt::format("{}, curve {}", input, name);
+    TRY(reader->TakeDated(std::move(curve), DateBeside(beside), name, where));
   }
   for (const RejectedCurve& rejected : set.rejected) {
     reader->TakeBroken(kUnknown, rejected.error.message);
